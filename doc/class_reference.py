@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Write the class reference from the docstrings of the running classes: ``yade -n -x doc/class_reference.py doc/classes.rst``.
+
+The docstrings live once, beside the C++ attributes and the Python functions; this script only turns YADE's roles into Sphinx's.
+"""
+
+import inspect
+import re
+import sys
+import textwrap
+
+import contactdynamics
+import yade.wrapper
+from contactdynamics import forcenetwork, report
+
+READ_ONLY = 2  # bit of YADE's attribute flags
+HIDDEN = 8
+OWN = sorted(name for name in dir(contactdynamics) if inspect.isclass(getattr(contactdynamics, name)) and hasattr(yade.wrapper, name))
+YADE_PAGE = "https://yade-dem.org/doc/yade.wrapper.html#yade.wrapper."
+
+
+def link(match):
+    """YADE's role yref: to an entry of this page for our classes, to YADE's manual for its own."""
+    text, target = re.fullmatch(r"(?:(.*?)<)?([^<>]*)>?", match.group(1), re.DOTALL).groups()
+    target = target.strip().replace("::", ".")
+    text = (text or target).strip()
+    return f":py:obj:`{text} <{target}>`" if target.split(".")[0] in OWN else f"`{text} <{YADE_PAGE}{target}>`__"
+
+
+def toSphinx(docstring):
+    """Docstring with YADE's roles resolved, and what YADE appended to it: default, type and flags (empty where absent)."""
+    facts = {}
+    for role in ("ydefault", "yattrtype", "yattrflags"):
+        found = re.search(rf":{role}:`(.*?)`", docstring, re.DOTALL)
+        facts[role] = found.group(1).strip() if found else ""
+        docstring = re.sub(rf":{role}:`.*?`", "", docstring, flags=re.DOTALL)
+    return re.sub(r":yref:`(.*?)`", link, inspect.cleandoc(docstring), flags=re.DOTALL).strip(), facts
+
+
+def entry(directive, text, options=()):
+    """One reST directive with an indented body."""
+    head = "\n".join([f".. {directive}", *[f"   {option}" for option in options]])
+    return f"{head}\n\n{textwrap.indent(text, '   ')}\n"
+
+
+def ofClass(name):
+    """A YADE class of ours with its own attributes and methods; inherited ones are in YADE's manual."""
+    cls = getattr(contactdynamics, name)
+    base = cls.__mro__[1].__name__
+    parts = [toSphinx(cls.__doc__ or "")[0], f"*Derived from* {link(re.match('(.*)', base))}."]
+    for attribute, member in cls.__dict__.items():
+        if attribute.startswith("_"):
+            continue
+        text, facts = toSphinx(member.__doc__ or "")
+        flags = int(facts["yattrflags"] or 0)
+        if flags & HIDDEN:
+            continue
+        if isinstance(member, property):
+            options = [f":type: {facts['yattrtype']}", f":value: {facts['ydefault']}"] if facts["yattrtype"] else []
+            parts.append(entry(f"py:attribute:: {name}.{attribute}", text + (" *(read-only)*" if flags & READ_ONLY else ""), options))
+        else:
+            # boost::python puts its own signature on the first line of a method's docstring.
+            parts.append(entry(f"py:method:: {name}.{attribute}()", inspect.cleandoc(text.split(":\n", 1)[-1])))
+    return entry(f"py:class:: {name}", "\n\n".join(parts))
+
+
+def ofFunction(module, function):
+    """A Python function with its signature and docstring."""
+    return entry(f"py:function:: {module}.{function.__name__}{inspect.signature(function)}", inspect.cleandoc(function.__doc__))
+
+
+def publicFunctions(module):
+    """Functions that the module itself defines, in the order of the file."""
+    found = [function for name, function in inspect.getmembers(module, inspect.isfunction)
+             if function.__module__ == module.__name__ and not name.startswith("_")]
+    return sorted(found, key=lambda function: function.__code__.co_firstlineno)
+
+
+def title(text, line):
+    return f"{text}\n{line * len(text)}\n"
+
+
+def main(path):
+    if not OWN:
+        sys.exit("the package contactdynamics shows no class of yade.wrapper, so there is nothing to document")
+    groups = {"Engine": [], "Physics and law of a contact": [], "Bounds and geometry of contacts": []}
+    for name in OWN:
+        group = "Engine" if name.endswith("Engine") else "Bounds and geometry of contacts" if name.startswith(("Bo1", "Ig2")) else "Physics and law of a contact"
+        groups[group].append(ofClass(name))
+    parts = [title("Class reference", "="), "Written by ``scripts/docs`` from the docstrings of the running classes.\n"]
+    parts += [title("Presets", "-"), ofFunction("contactdynamics", contactdynamics.engines)]
+    for heading, entries in groups.items():
+        parts += [title(heading, "-"), *entries]
+    for heading, module in (("Report", report), ("Picture of the force network", forcenetwork)):
+        parts += [title(heading, "-"), inspect.cleandoc(module.__doc__) + "\n", *[ofFunction(module.__name__, function) for function in publicFunctions(module)]]
+    with open(path, "w") as file:
+        file.write("\n".join(parts))
+    print(f"{len(OWN)} classes written to {path}")
+
+
+main(sys.argv[1])

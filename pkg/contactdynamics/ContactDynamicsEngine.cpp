@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ContactDynamicsEngine.hpp"
+#include "ContactDynamicsStep.hpp"
+#include "DeferredError.hpp"
+#include "EngineOrder.hpp"
+#include "Reach.hpp"
+#include <core/Scene.hpp>
+#include <core/Timing.hpp>
+#include <cmath>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+
+namespace yade {
+
+YADE_PLUGIN((ContactDynamicsEngine));
+
+struct ContactDynamicsEngine::Step : ContactDynamicsStep {};
+
+ContactDynamicsEngine::~ContactDynamicsEngine() = default;
+
+void ContactDynamicsEngine::createStep() { step = std::make_shared<Step>(); }
+
+namespace {
+	template <class Value> [[noreturn]] void refuse(const char* attribute, const Value& value, const char* allowed)
+	{
+		std::ostringstream message;
+		message << "ContactDynamicsEngine." << attribute << " = " << value << ": " << allowed << ".";
+		throw std::invalid_argument(message.str());
+	}
+}
+
+void ContactDynamicsEngine::postLoad(ContactDynamicsEngine&)
+{
+	const Admitted asked { tolerance, maxIterations, contactLaw, onNonConvergence };
+	tolerance        = admitted.tolerance;
+	maxIterations    = admitted.maxIterations;
+	contactLaw       = admitted.contactLaw;
+	onNonConvergence = admitted.onNonConvergence;
+	if (!(asked.tolerance > 0 && std::isfinite(asked.tolerance))) refuse("tolerance", asked.tolerance, "it must be positive and finite");
+	if (asked.maxIterations < 1) refuse("maxIterations", asked.maxIterations, "at least one sweep is needed");
+	if (asked.contactLaw != "quasiInelasticShock" && asked.contactLaw != "velocitySignorini" && asked.contactLaw != "signorini")
+		refuse("contactLaw", '"' + asked.contactLaw + '"', "allowed are quasiInelasticShock, velocitySignorini and signorini");
+	if (asked.onNonConvergence != "warn" && asked.onNonConvergence != "raise" && asked.onNonConvergence != "ignore")
+		refuse("onNonConvergence", '"' + asked.onNonConvergence + '"', "allowed are warn, raise and ignore");
+	tolerance        = asked.tolerance;
+	maxIterations    = asked.maxIterations;
+	contactLaw       = asked.contactLaw;
+	onNonConvergence = asked.onNonConvergence;
+	admitted         = asked;
+}
+
+void ContactDynamicsEngine::action()
+{
+	struct ForgetReach {
+		~ForgetReach() { Reach::forget(); }
+	} atTheEnd;
+	timingDeltas->start();
+	collect();
+	timingDeltas->checkpoint("collect");
+	solve();
+	timingDeltas->checkpoint("solve");
+	apply();
+	timingDeltas->checkpoint("apply");
+}
+
+void ContactDynamicsEngine::collect()
+{
+	DeferredError::raise(scene);
+	if (!(scene->dt > 0 && std::isfinite(scene->dt))) {
+		std::ostringstream message;
+		message << "ContactDynamicsEngine: O.dt is " << scene->dt << "; the time step must be positive and finite.";
+		throw std::runtime_error(message.str());
+	}
+	const NewtonIntegrator& newton = requireEngineOrder(*scene, *this);
+	scene->forces.sync();
+	step->collectBodies(*scene, IntegratorPlan(*scene, newton));
+	const Real scale = impulseTimeStep > 0 ? scene->dt / impulseTimeStep : 1;
+	step->collectContacts(*scene, contactLaw, warmStart ? scale : 0);
+}
+
+void ContactDynamicsEngine::solve()
+{
+	const auto report = step->solve(tolerance, maxIterations);
+	iterations        = report.iterations;
+	residual          = report.residual;
+	maxApproachSpeed  = report.maxApproachSpeed;
+	converged         = report.status == contactdynamics::SolveStatus::converged;
+	if (report.status == contactdynamics::SolveStatus::notFinite)
+		throw std::runtime_error("ContactDynamicsEngine: the contact problem of step " + std::to_string(scene->iter)
+		                         + " has values that are not finite (external force, inertia or contact geometry); no body was moved.");
+	if (converged || onNonConvergence == "ignore") return;
+	std::ostringstream message;
+	message << "ContactDynamicsEngine: step " << scene->iter << ": residual " << residual << " after " << iterations << " sweeps is above the tolerance " << tolerance
+	        << " (" << step->problem.contacts.size() << " contacts, largest approach speed left " << maxApproachSpeed
+	        << " m/s). Raise maxIterations or tolerance, or lower O.dt.";
+	if (onNonConvergence == "raise") throw std::runtime_error(message.str());
+	if (!warned) std::cerr << "WARNING: " << message.str() << " Said once; see ContactDynamicsEngine.converged." << std::endl;
+	warned = true;
+}
+
+void ContactDynamicsEngine::apply()
+{
+	step->apply(*scene);
+	impulseTimeStep = scene->dt;
+	contacts        = static_cast<int>(step->problem.contacts.size());
+	activeContacts  = step->activeContacts;
+	maxPenetration  = step->maxPenetration;
+	meanPenetration = step->meanPenetration;
+}
+
+boost::python::list ContactDynamicsEngine::freeVelocities() const { return step->velocitiesById(step->free); }
+boost::python::list ContactDynamicsEngine::predictedVelocities() const { return step->velocitiesById(step->end()); }
+boost::python::list ContactDynamicsEngine::predictedAngularMomenta() const { return step->angularMomentaById(); }
+
+} // namespace yade

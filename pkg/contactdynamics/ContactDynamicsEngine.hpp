@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <core/GlobalEngine.hpp>
+#include <boost/python.hpp>
+#include <memory>
+
+namespace yade {
+
+class ContactDynamicsEngine : public GlobalEngine {
+public:
+	/// One step: gather the scene into a problem, solve it in place, scatter the reactions into O.forces and the contacts.
+	void action() override;
+	/// Refuses inadmissible attributes at once (Python: ValueError) and puts the last admissible values back.
+	void postLoad(ContactDynamicsEngine&);
+	virtual ~ContactDynamicsEngine();
+
+	boost::python::list freeVelocities() const;
+	boost::python::list predictedVelocities() const;
+	boost::python::list predictedAngularMomenta() const;
+
+private:
+	struct Step; // problem, solver and what connects them with the scene; kept between steps so that memory is allocated once
+	std::shared_ptr<Step> step;
+
+	void collect();
+	void solve();
+	void apply();
+
+	struct Admitted {
+		Real   tolerance     = 1e-4;
+		int    maxIterations = 1000;
+		string contactLaw = "quasiInelasticShock", onNonConvergence = "warn";
+	} admitted;
+	bool warned = false;
+
+public:
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactDynamicsEngine,GlobalEngine,
+		"Non-smooth contact dynamics (M. Jean, The non-smooth contact dynamics method, CMAME 177, 1999; equation numbers are his): solves the implicit Signorini–Coulomb problem "
+		"of all contacts whose physics is :yref:`ContactDynamicsPhys` and adds the reactions to ``O.forces``, so that the :yref:`NewtonIntegrator` behind it arrives at velocities that satisfy "
+		"the contact law. Stands just before ``NewtonIntegrator(damping=0)`` and after :yref:`ForceResetter`, the collider and :yref:`InteractionLoop`; soft contact laws may act beside it, their forces count as external. "
+		"``contactdynamics.engines()`` makes the whole list. \n\nThe velocity without contact (free velocity) is predicted exactly as the integrator computes it: blocked degrees of freedom, clumps, "
+		":yref:`mask<NewtonIntegrator.mask>`, density scaling, permanent forces and the periodic cell included. For :yref:`aspherical<Body.aspherical>` bodies the integrator advances the angular momentum; the contact law then holds "
+		"for the angular velocity with the orientation at the start of the step, and the ``angVel`` seen afterwards differs by the turn of one step (order ``O.dt``). \n\nThe result is the same, bit for bit, for any number of threads and across ``O.save``/``O.load``. "
+		"Errors (RuntimeError from ``O.step()``/``O.run(wait=True)``, scene left as it was before the integrator): engines in the wrong order or damping ≠ 0; ``O.dt`` ≤ 0 or not finite; position, velocity, mass, inertia, friction or gap not finite or not admissible.",
+		((Real,tolerance,1e-4,Attr::triggerPostLoad,"Bound on :yref:`residual<ContactDynamicsEngine.residual>` at which the solve stops [-], > 0. 1e-3 serves quasi-static flow, 1e-6 and less force chains and verification. Default: overlaps stay below about 1e-4 of a radius."))
+		((int,maxIterations,1000,Attr::triggerPostLoad,"Largest number of sweeps over all contacts in a step [-], ≥ 1. Enough for impacts of some thousand grains at the default tolerance; what happens when it is reached is decided by :yref:`onNonConvergence<ContactDynamicsEngine.onNonConvergence>`."))
+		((string,contactLaw,"quasiInelasticShock",Attr::triggerPostLoad,"Contact condition with U⁺ the normal velocity after the step, g the gap and h the time step: ``quasiInelasticShock`` 0 ≤ U⁺ + max(0,g)/h ⟂ R ≥ 0 (25), default, for collections of rigid bodies; "
+			"``velocitySignorini`` 0 ≤ U⁺ ⟂ R ≥ 0 (23) if contact is forecast, that is g ≤ 0 or g + hU ≤ 0 for the velocity at the start of the step or the free velocity; ``signorini`` 0 ≤ U⁺ + g/h ⟂ R ≥ 0 (22), (24), which also pushes overlaps apart and so may add energy to large collections of rigid bodies. Another name raises ValueError."))
+		((bool,warmStart,true,,"Start the solve from the impulses of the last step, scaled to the present time step. Default True: saves most of the sweeps and selects the solution that follows the history of loading (Jean 1999, section 8). False starts from zero."))
+		((string,onNonConvergence,"warn",Attr::triggerPostLoad,"What to do when :yref:`maxIterations<ContactDynamicsEngine.maxIterations>` sweeps leave the residual above the tolerance: ``warn`` (default) says so once on standard error and goes on with the impulses reached (admissible: inside the cone), ``raise`` stops the step with a RuntimeError before the bodies move, ``ignore`` goes on. "
+			":yref:`converged<ContactDynamicsEngine.converged>` tells in every case."))
+		((int,contacts,0,Attr::readonly,"Number of contacts in the last solve: candidates that the two bodies may close within a step, touching or not [-]."))
+		((int,activeContacts,0,Attr::readonly,"Number of contacts that carry an impulse after the last solve [-]."))
+		((int,iterations,0,Attr::readonly,"Sweeps of the last solve [-]."))
+		((Real,residual,0,Attr::readonly,"Certificate of the last solve [-]: norm of the natural map F = r − P(r − (u + μ|u_T|n)/W_NN) of all contacts over the norm of their impulses r, both weighted with the local Delassus operator W (so it does not depend on units); P projects on Coulomb's cone. It is the error of the projection equations (2), (7) at the impulses applied, not the size of the last update."))
+		((bool,converged,true,Attr::readonly,"Whether the last residual met the tolerance."))
+		((Real,maxPenetration,0,Attr::readonly,"Largest overlap of two bodies at the positions the last solve started from [m], ≥ 0."))
+		((Real,meanPenetration,0,Attr::readonly,"Mean overlap of the active contacts at the positions the last solve started from, those with a gap counted as 0 [m]."))
+		((Real,maxApproachSpeed,0,Attr::readonly,"Largest speed at which a contact still violates its condition after the last solve, max(0, −(U_N + max(0,g)/h)) for the default law [m/s]; divided by the speed gravity gives in a step, h·g, it tells what the residual means in motion."))
+		((Real,impulseTimeStep,0,(Attr::readonly|Attr::hidden),"Time step of the impulses stored with the contacts [s]."))
+		,
+		/*ctor*/ timingDeltas = boost::shared_ptr<TimingDeltas>(new TimingDeltas); createStep();
+		,
+		/*py*/
+		.def("freeVelocities",&ContactDynamicsEngine::freeVelocities,"Free velocities of the last step by body id: (velocity [m/s], angular velocity [rad/s]) at the end of the step without contact impulses; ``None`` for ids that NewtonIntegrator does not move itself (erased bodies, clump members, bodies left out by its mask).")
+		.def("predictedVelocities",&ContactDynamicsEngine::predictedVelocities,"Velocities at the end of the last step with the contact impulses, as :yref:`freeVelocities<ContactDynamicsEngine.freeVelocities>`; NewtonIntegrator arrives at the same but for round-off (angular velocity of aspherical bodies: but for the turn of one step).")
+		.def("predictedAngularMomenta",&ContactDynamicsEngine::predictedAngularMomenta,"Angular momenta [kg·m²/s] at the end of the last step by body id, of aspherical bodies with exact rotation; ``None`` for all other ids.")
+	);
+	// clang-format on
+private:
+	void createStep();
+};
+REGISTER_SERIALIZABLE(ContactDynamicsEngine);
+
+} // namespace yade

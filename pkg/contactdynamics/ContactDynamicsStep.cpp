@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ContactDynamicsStep.hpp"
+#include "ContactDynamicsPhys.hpp"
+#include "FacetEdges.hpp"
+#include "ParallelLoop.hpp"
+#include <core/Cell.hpp>
+#include <core/Clump.hpp>
+#include <core/Interaction.hpp>
+#include <core/InteractionContainer.hpp>
+#include <core/Scene.hpp>
+#include <omp.h>
+#include <pkg/common/Facet.hpp>
+#include <pkg/common/Sphere.hpp>
+#include <pkg/dem/ScGeom.hpp>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <typeinfo>
+
+namespace yade {
+namespace {
+	bool isotropic(const FreeMotion& motion)
+	{
+		return motion.inverseMass == Vector3r::Constant(motion.inverseMass[0])
+		        && motion.inverseInertia == Matrix3r(motion.inverseInertia(0, 0) * Matrix3r::Identity());
+	}
+	bool immobile(const FreeMotion& motion) { return motion.inverseMass == Vector3r::Zero() && motion.inverseInertia == Matrix3r::Zero(); }
+
+	[[noreturn]] void refuse(const Interaction& interaction, const char* what, Real value, const char* allowed)
+	{
+		std::ostringstream message;
+		message << "contact #" << interaction.getId1() << "+#" << interaction.getId2() << ": " << what << " is " << value << "; " << allowed << ".";
+		throw std::runtime_error(message.str());
+	}
+
+	/// Components along the normal and the two tangents that ContactDynamicsPhys.localVelocity documents.
+	Vector3r inLocalFrame(const Vector3r& vector, const Vector3r& normal)
+	{
+		int axis;
+		normal.cwiseAbs().minCoeff(&axis);
+		const Vector3r tangent1 = (Vector3r::Unit(axis) - normal[axis] * normal).normalized();
+		return { normal.dot(vector), tangent1.dot(vector), normal.cross(tangent1).dot(vector) };
+	}
+
+	ContactDynamicsPhys* contactDynamicsPhys(const Interaction& interaction)
+	{
+		IPhys* phys = interaction.phys.get();
+		if (!phys || !interaction.geom) return nullptr;
+		if (typeid(*phys) == typeid(ContactDynamicsPhys)) return static_cast<ContactDynamicsPhys*>(phys); // the common case, without a walk through the bases
+		return dynamic_cast<ContactDynamicsPhys*>(phys);
+	}
+
+	const char* nameOf(contactdynamics::ContactStatus status)
+	{
+		switch (status) {
+			case contactdynamics::ContactStatus::sticking: return "sticking";
+			case contactdynamics::ContactStatus::sliding: return "sliding";
+			default: return "none";
+		}
+	}
+}
+
+void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan)
+{
+	h                = plan.h;
+	velGrad          = plan.velGrad;
+	const long count = static_cast<long>(scene.bodies->size());
+	views.assign(count, BodyView());
+	idOfIndex.clear();
+	for (int id = 0; id < count; id++) {
+		const auto& body = (*scene.bodies)[id];
+		if (!body || body->isClumpMember()) continue;
+		views[id].index = static_cast<int>(idOfIndex.size());
+		idOfIndex.push_back(id);
+	}
+	motions.resize(idOfIndex.size());
+	free.resize(idOfIndex.size());
+	problem.bodies.resize(idOfIndex.size());
+
+	parallelLoop(static_cast<long>(idOfIndex.size()), [&](long index) {
+		const int   id     = idOfIndex[index];
+		const Body& body   = *(*scene.bodies)[id];
+		Vector3r    force  = scene.forces.getForce(id);
+		Vector3r    torque = scene.forces.getTorque(id);
+		if (body.isClump()) {
+			for (const auto& member : static_cast<const Clump&>(*body.shape).members) {
+				const Vector3r& onMember = scene.forces.getForce(member.first);
+				force += onMember;
+				torque += scene.forces.getTorque(member.first) + ((*scene.bodies)[member.first]->state->pos - body.state->pos).cross(onMember);
+			}
+		}
+		const FreeMotion& motion = motions[index] = predictFreeMotion(scene, plan, body, force, torque);
+		problem.bodies[index]                     = { motion.velocity, motion.angularVelocity, motion.inverseMass, motion.inverseInertia };
+		free[index]                               = { motion.velocity, motion.angularVelocity };
+	});
+
+	parallelLoop(count, [&](long id) {
+		const auto& body = (*scene.bodies)[id];
+		if (!body) return;
+		BodyView& view = views[id];
+		view.state     = body->state.get();
+		view.member    = body->isClumpMember();
+		if (view.member) {
+			view.index = views[body->clumpId].index;
+			if (view.index < 0)
+				throw std::runtime_error("body #" + std::to_string(id) + " is a member of clump #" + std::to_string(body->clumpId) + ", which does not exist (any more).");
+		}
+		if (const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get())) view.radius = sphere->radius;
+		else
+			view.facet = dynamic_cast<const Facet*>(body->shape.get());
+		view.fixed = immobile(motions[view.index]);
+		view.ball  = view.fixed || (view.radius > 0 && !view.member && isotropic(motions[view.index]));
+	});
+}
+
+void ContactDynamicsStep::gatherInteractions(const Scene& scene)
+{
+	// Each body keeps its interactions sorted by the other id, under the smaller of the two ids: walking the bodies gives an order
+	// that depends on nothing but ids, without a sort. Threads take consecutive ranges of bodies.
+	gathered.resize(omp_get_max_threads());
+	for (auto& ofThread : gathered)
+		ofThread.clear();
+	parallelLoop(static_cast<long>(views.size()), [&](long id) {
+		const auto& body = (*scene.bodies)[id];
+		if (!body) return;
+		for (const auto& other : body->intrs)
+			if (other.first > id && other.first < static_cast<int>(views.size()) && views[other.first].state && contactDynamicsPhys(*other.second))
+				gathered[omp_get_thread_num()].push_back(other.second.get());
+	});
+	links.clear();
+	for (const auto& ofThread : gathered)
+		for (Interaction* interaction : ofThread)
+			links.push_back({ interaction, contactDynamicsPhys(*interaction), false, true, Vector3r::Zero(), Vector3r::Zero(), 0 });
+}
+
+void ContactDynamicsStep::dropDoubledFacetContacts(const Scene& scene)
+{
+	std::vector<FacetContact> contacts;
+	std::vector<Link*>        ofContact;
+	for (Link& link : links) {
+		const Interaction& interaction = *link.interaction;
+		const BodyView&    view        = views[interaction.getId1()];
+		if (!view.facet) continue;
+		const ScGeom& geom   = static_cast<const ScGeom&>(*interaction.geom);
+		Vector3r      origin = view.state->pos - views[interaction.getId2()].state->pos;
+		if (scene.isPeriodic) origin -= scene.cell->hSize * interaction.cellDist.cast<Real>();
+		const auto corner = [&](int i) { return Vector3r(origin + view.state->ori * view.facet->vertices[i]); };
+		contacts.push_back({ interaction.getId2(), interaction.getId1(), -(geom.refR2 - geom.penetrationDepth) * geom.normal, { corner(0), corner(1), corner(2) } });
+		ofContact.push_back(&link);
+	}
+	const std::vector<char> doubled = doubledFacetContacts(contacts);
+	for (std::size_t i = 0; i < doubled.size(); i++)
+		if (doubled[i]) ofContact[i]->solved = false;
+}
+
+void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const
+{
+	const Interaction& interaction = *link.interaction;
+	const ScGeom&      geom        = static_cast<const ScGeom&>(*interaction.geom);
+	const BodyView&    view1       = views[interaction.getId1()];
+	const BodyView&    view2       = views[interaction.getId2()];
+	const Vector3r     shift       = scene.isPeriodic ? Vector3r(scene.cell->hSize * interaction.cellDist.cast<Real>()) : Vector3r(Vector3r::Zero());
+
+	// The contact point lies in the middle of gap or overlap. For spheres the arms come from the radii, exactly along the normal.
+	contact        = contactdynamics::Contact();
+	contact.normal = geom.normal;
+	link.gap       = -geom.penetrationDepth;
+	link.arm1      = view1.radius > 0 ? Vector3r((view1.radius + 0.5 * link.gap) * geom.normal) : Vector3r(geom.contactPoint - view1.state->pos);
+	link.arm2      = view2.radius > 0 ? Vector3r(-(view2.radius + 0.5 * link.gap) * geom.normal) : Vector3r(geom.contactPoint - view2.state->pos - shift);
+	contact.body1  = view1.index;
+	contact.body2  = view2.index;
+	contact.ball   = view1.ball && view2.ball;
+	// An image is carried by the cell: at the next step it stands at pos + hSize·cellDist with the hSize of then.
+	if (scene.isPeriodic) contact.imageVelocity = velGrad * shift;
+
+	const auto fromMassCentre = [&](const BodyView& view, const Vector3r& arm) {
+		return view.member ? Vector3r(arm + view.state->pos - views[idOfIndex[view.index]].state->pos) : arm;
+	};
+	contact.arm1 = fromMassCentre(view1, link.arm1);
+	contact.arm2 = fromMassCentre(view2, link.arm2);
+
+	link.swapped = view1.radius > 0 && view2.radius > 0 && interaction.getId1() > interaction.getId2();
+	if (link.swapped) {
+		std::swap(contact.body1, contact.body2);
+		std::swap(contact.arm1, contact.arm2);
+		contact.normal        = -contact.normal;
+		contact.imageVelocity = -contact.imageVelocity;
+	}
+	contact.friction = link.phys->tangensOfFrictionAngle;
+	link.solved      = link.solved && contact.body1 != contact.body2 && !(view1.fixed && view2.fixed);
+}
+
+void ContactDynamicsStep::requireUsable(const Link& link, const contactdynamics::Contact& contact) const
+{
+	if (!std::isfinite(link.gap) || !contact.normal.allFinite())
+		refuse(*link.interaction, "the gap", link.gap, "it must be finite; see size and position of the two bodies");
+	if (!(contact.friction >= 0 && std::isfinite(contact.friction)))
+		refuse(*link.interaction,
+		       "the friction coefficient (ContactDynamicsPhys.tangensOfFrictionAngle)",
+		       contact.friction,
+		       "it must be finite and not negative");
+	if (!link.phys->impulse.allFinite())
+		refuse(*link.interaction, "the stored impulse (ContactDynamicsPhys.impulse)", link.phys->impulse.sum(), "it must be finite");
+}
+
+/// Whether contact is forecast in the sense of (23): the gap is closed, or will be with the velocity of now or with the free velocity.
+bool ContactDynamicsStep::forecast(const Link& link, const contactdynamics::Contact& contact) const
+{
+	if (link.gap <= 0) return true;
+	const auto closes = [&](const Twist& of1, const Twist& of2) {
+		const Vector3r velocity = of2.velocity + of2.angularVelocity.cross(contact.arm2) + contact.imageVelocity - of1.velocity - of1.angularVelocity.cross(contact.arm1);
+		return link.gap + h * contact.normal.dot(velocity) <= 0;
+	};
+	const auto atStart = [&](int index) {
+		const State& state = *views[idOfIndex[index]].state;
+		return Twist { state.vel, state.angVel };
+	};
+	return closes(free[contact.body1], free[contact.body2]) || closes(atStart(contact.body1), atStart(contact.body2));
+}
+
+void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string& contactLaw, Real warmStart)
+{
+	const bool velocitySignorini = contactLaw == "velocitySignorini", quasiInelasticShock = contactLaw == "quasiInelasticShock";
+	gatherInteractions(scene);
+	dropDoubledFacetContacts(scene);
+	problem.contacts.resize(links.size());
+	parallelLoop(static_cast<long>(links.size()), [&](long i) {
+		Link&                     link    = links[i];
+		contactdynamics::Contact& contact = problem.contacts[i];
+		describe(scene, link, contact);
+		requireUsable(link, contact);
+		contact.impulse     = (link.swapped ? -warmStart : warmStart) * link.phys->impulse;
+		contact.gapVelocity = velocitySignorini ? 0 : (quasiInelasticShock ? std::max(Real(0), link.gap) : link.gap) / h;
+		if (velocitySignorini) link.solved = link.solved && forecast(link, contact);
+		if (!link.solved) leaveOut(link);
+	});
+	std::size_t kept = 0;
+	for (std::size_t i = 0; i < links.size(); i++) {
+		if (!links[i].solved) continue;
+		if (kept != i) {
+			links[kept]            = links[i];
+			problem.contacts[kept] = problem.contacts[i];
+		}
+		kept++;
+	}
+	links.resize(kept);
+	problem.contacts.resize(kept);
+}
+
+/// A pair that takes no part in the solve: no reaction, and the local velocity left from an earlier step would mislead.
+void ContactDynamicsStep::leaveOut(Link& link)
+{
+	link.phys->gap           = link.gap;
+	link.phys->status        = "none";
+	link.phys->impulse       = Vector3r::Zero();
+	link.phys->normalForce   = Vector3r::Zero();
+	link.phys->shearForce    = Vector3r::Zero();
+	link.phys->localVelocity = Vector3r::Zero();
+}
+
+contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxIterations)
+{
+	contactdynamics::SolverOptions options;
+	options.tolerance     = tolerance;
+	options.maxIterations = maxIterations;
+	options.threads       = omp_get_max_threads();
+	return solver.solve(problem, options);
+}
+
+void ContactDynamicsStep::writeBack(const Link& link, const contactdynamics::Contact& contact) const
+{
+	ContactDynamicsPhys& phys   = *link.phys;
+	const Real           sign   = link.swapped ? -1 : 1;
+	const Vector3r       normal = sign * contact.normal;
+	const Vector3r       force  = sign / h * contact.impulse;
+	phys.impulse                = sign * contact.impulse;
+	phys.normalForce            = normal.dot(force) * normal;
+	phys.shearForce             = force - phys.normalForce;
+	phys.gap                    = link.gap;
+	phys.localVelocity          = inLocalFrame(sign * contact.relativeVelocity, normal);
+	phys.status                 = nameOf(contact.status);
+}
+
+void ContactDynamicsStep::apply(Scene& scene)
+{
+	parallelLoop(static_cast<long>(links.size()), [&](long i) { writeBack(links[i], problem.contacts[i]); });
+
+	// One sum a body, in the order of the contacts: adding from several threads would make the last bits depend on their number.
+	loads.assign(views.size(), { Vector3r::Zero(), Vector3r::Zero() });
+	activeContacts    = 0;
+	maxPenetration    = 0;
+	Real penetrations = 0;
+	for (std::size_t i = 0; i < links.size(); i++) {
+		const contactdynamics::Contact& contact     = problem.contacts[i];
+		const Link&                     link        = links[i];
+		const Real                      penetration = std::max(Real(0), -link.gap);
+		maxPenetration                              = std::max(maxPenetration, penetration);
+		if (contact.impulse == Vector3r::Zero()) continue;
+		activeContacts++;
+		penetrations += penetration;
+		const Vector3r force = (link.swapped ? -1 : 1) / h * contact.impulse;
+		Load&          on1   = loads[link.interaction->getId1()];
+		Load&          on2   = loads[link.interaction->getId2()];
+		on1.force -= force;
+		on1.torque -= link.arm1.cross(force);
+		on2.force += force;
+		on2.torque += link.arm2.cross(force);
+	}
+	meanPenetration = activeContacts > 0 ? penetrations / activeContacts : 0;
+
+	for (std::size_t id = 0; id < loads.size(); id++) {
+		if (loads[id].force != Vector3r::Zero()) scene.forces.addForce(static_cast<int>(id), loads[id].force);
+		if (loads[id].torque != Vector3r::Zero()) scene.forces.addTorque(static_cast<int>(id), loads[id].torque);
+	}
+	scene.forces.sync(); // some recorders and controllers behind the engine read without syncing
+}
+
+} // namespace yade

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "FreeMotion.hpp"
+#include <boost/python/list.hpp>
+#include <pkg/solver/SignoriniCoulombSolver.hpp>
+#include <string>
+#include <vector>
+
+namespace yade {
+
+class ContactDynamicsPhys;
+class Facet;
+class Interaction;
+class Scene;
+
+/// One step of ContactDynamicsEngine in flat arrays: the scene is gathered once, solved, and scattered once.
+/// Bodies and contacts are ordered by id, so the problem does not depend on threads or on the order in which YADE met the pairs.
+struct ContactDynamicsStep {
+	struct Twist {
+		Vector3r velocity, angularVelocity;
+	};
+
+	contactdynamics::GrainProblem problem;
+	std::vector<Twist>            free;                // free velocities by solver index
+	int                           activeContacts  = 0; // of the last apply()
+	Real                          maxPenetration  = 0; // [m]
+	Real                          meanPenetration = 0; // [m], mean over the active contacts
+
+	void collectBodies(Scene& scene, const IntegratorPlan& plan);
+	/// @param warmStart  factor for the stored impulses: ratio of time steps, or 0 to start from nothing
+	void                         collectContacts(const Scene& scene, const std::string& contactLaw, Real warmStart);
+	contactdynamics::SolveReport solve(Real tolerance, int maxIterations);
+	void                         apply(Scene& scene);
+
+	std::vector<Twist>  end() const; // velocities at the end of the step by solver index
+	boost::python::list velocitiesById(const std::vector<Twist>& twists) const;
+	boost::python::list angularMomentaById() const;
+
+private:
+	/// What the contacts need of a body, looked up once a step instead of once a contact.
+	struct BodyView {
+		const State* state  = nullptr; // null: erased
+		const Facet* facet  = nullptr; // null: no facet
+		Real         radius = 0;       // 0: no sphere [m]
+		int          index  = -1;      // into problem.bodies; that of the clump for a member
+		bool         member = false;   // of a clump
+		bool         ball   = false;   // an impulse through the centre does not turn it, and all directions are alike
+		bool         fixed  = false;   // no impulse moves it
+	};
+	/// What links a contact of the problem with the scene. A pair of spheres enters the problem with the smaller id first, whatever order
+	/// YADE chose: that order may differ after O.load, and with it the last bits.
+	struct Link {
+		Interaction*         interaction;
+		ContactDynamicsPhys* phys;
+		bool                 swapped, solved;
+		Vector3r             arm1, arm2; // from the positions of the two bodies (not of their clumps) to the contact point [m]
+		Real                 gap;        // [m]
+	};
+	struct Load {
+		Vector3r force, torque;
+	};
+
+	void gatherInteractions(const Scene& scene);
+	void dropDoubledFacetContacts(const Scene& scene);
+	void describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const;
+	void requireUsable(const Link& link, const contactdynamics::Contact& contact) const;
+	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;
+	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
+	static void leaveOut(Link& link);
+
+	Real                                    h = 0;
+	Matrix3r                                velGrad; // that the integrator will apply, for the velocity of periodic images
+	std::vector<BodyView>                   views;   // by body id
+	std::vector<int>                        idOfIndex;
+	std::vector<FreeMotion>                 motions;                 // by solver index
+	std::vector<std::vector<Interaction*>>  gathered;                // by thread
+	std::vector<Link>                       links;                   // parallel to problem.contacts once collected
+	std::vector<Load>                       loads;                   // contact force and torque by body id
+	contactdynamics::SignoriniCoulombSolver solver;
+};
+
+} // namespace yade

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+// Plain data only, no library header: this file is compiled once for the baseline and once for wide instructions, and a library's inline function
+// compiled with wide instructions could be picked by the linker for a machine that has none.
+namespace contactdynamics {
+
+/// What a sweep reads and writes of one body, in one cache line. The mobilities are meaningful for bodies with ball contacts only.
+struct alignas(64) BodyState {
+	double velocity[3];
+	double inverseMass;
+	double angularVelocity[3];
+	double inverseInertia;
+};
+
+/// Four ball contacts that share no moving body, one per lane. A lane without a contact has id -1, zeros, and refers to a body at rest.
+///
+/// A body index is complemented (~index, negative) when the body cannot move: it is read but never written, so that threads do not meet there.
+struct alignas(64) BallPack {
+	double normal[3][4];	 ///< from body 1 to body 2
+	double gapVelocity[4];	 ///< s, normal image velocity included [m/s]
+	double friction[4];		 ///< mu
+	double arm1[4], arm2[4]; ///< arms along the normal [m]; arm2 is negative for two convex bodies
+	double inverseWn[4];	 ///< 1 / W_nn [kg]
+	double inverseWt[4];	 ///< 1 / W_tt [kg]
+	double impulse[3][4];	 ///< y: after the last visit, inside the cone, global axes [N s]
+	double increment[3][4];	 ///< change of the impulse in the last visit [N s]
+	double direction[3][4];	 ///< search direction of the acceleration, one sweep behind [N s]
+	std::int32_t body1[4], body2[4];
+	std::int32_t id[4]; ///< index of the contact in the problem
+};
+
+/// How the next sweep starts: x' = y + relax (y - x) + momentum (x - x_before), for impulses and, by linearity, velocities.
+struct Extrapolation {
+	double relax = 0, momentum = 0;
+};
+
+/// Sums over a run of contacts: what a sweep costs nothing to know.
+struct SweepNorms {
+	double increment2 = 0; ///< sum of dr^T W dr, dr the change of the impulse in the sweep [J]
+	double impulse2 = 0;   ///< sum of r^T W r [J]
+};
+
+/// One visit of each contact of the packs, in any order: exact one-contact solution for W = diag(Wn, Wt, Wt) at the
+/// extrapolated impulse; the velocities are expected extrapolated already.
+using BallSweep = SweepNorms (*)(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation);
+
+SweepNorms ballSweepBaseline(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation);
+SweepNorms ballSweepAvx2(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation);
+
+/// The widest version this machine can run. All versions give the same bits.
+BallSweep selectBallSweep();
+
+} // namespace contactdynamics

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+namespace contactdynamics {
+
+/// Threads that share the independent jobs of one stage after another, for stages of microseconds.
+///
+/// The leader publishes a stage, takes jobs itself and goes on as soon as all jobs are done: it never waits for a thread, only for a job that a
+/// helper has begun. OpenMP's barriers were rejected: on a machine with other work each of them waits for every thread to be scheduled again, and a
+/// sweep of ten colours, 20 microseconds of work, took 40 milliseconds on two busy cores.
+/// Which thread does a job is a matter of chance; results must not depend on it.
+class Crew {
+public:
+	/// Helpers for the life time of the object; none when the system refuses more threads: then the leader does all.
+	explicit Crew(int threads);
+	~Crew();
+	Crew(const Crew&) = delete;
+	Crew& operator=(const Crew&) = delete;
+
+	/// Calls job(0) ... job(count - 1), each once, concurrently; returns when all are done. Jobs must not throw.
+	template <class Job> void run(std::size_t count, const Job& job)
+	{
+		if (helpers.empty() || count < 2) {
+			for (std::size_t i = 0; i < count; ++i) job(i);
+			return;
+		}
+		call = [](const void* context, std::size_t i) { (*static_cast<const Job*>(context))(i); };
+		context = &job;
+		for (std::size_t first = 0; first < count; first += maxJobs) stage(first, count - first < maxJobs ? count - first : maxJobs);
+	}
+
+private:
+	static constexpr std::size_t maxJobs = 0x7fffffff;
+
+	std::vector<std::thread> helpers;
+	// Of the present stage; written by the leader only while no job is open.
+	void (*call)(const void*, std::size_t) = nullptr;
+	const void* context = nullptr;
+	std::size_t first = 0;
+	alignas(64) std::atomic<std::uint64_t> board{0}; // jobs of the stage (upper half) and the next one to take (lower half)
+	alignas(64) std::atomic<std::size_t> done{0};
+	std::atomic<bool> dismissed{false};
+
+	bool takeJob();
+	void stage(std::size_t firstJob, std::size_t count);
+	void help();
+};
+
+} // namespace contactdynamics

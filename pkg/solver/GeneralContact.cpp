@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "GeneralContact.hpp"
+
+#include <Eigen/Geometry>
+
+namespace contactdynamics {
+
+Matrix3 contactFrame(const Vector3& normal)
+{
+	const Vector3 helper = std::abs(normal[0]) < 0.6 ? Vector3::UnitX() : Vector3::UnitY();
+	const Vector3 t1 = (helper - helper.dot(normal) * normal).normalized();
+	Matrix3 frame;
+	frame.row(0) = normal;
+	frame.row(1) = t1;
+	frame.row(2) = normal.cross(t1);
+	return frame;
+}
+
+Matrix3 localDelassus(const Body& body1, const Body& body2, const Contact& contact, const Matrix3& frame)
+{
+	// Columns: what a unit impulse along n, t1, t2 does to the velocities; W is the energy product of these, symmetric by construction.
+	Matrix3 turn1, turn2;
+	for (int k = 0; k < 3; ++k) {
+		turn1.col(k) = contact.arm1.cross(frame.row(k).transpose());
+		turn2.col(k) = contact.arm2.cross(frame.row(k).transpose());
+	}
+	Matrix3 W = frame * (body1.inverseMass + body2.inverseMass).asDiagonal() * frame.transpose();
+	W += turn1.transpose() * body1.inverseInertia * turn1 + turn2.transpose() * body2.inverseInertia * turn2;
+	return 0.5 * (W + W.transpose());
+}
+
+SweepNorms visit(GeneralContact& c, BodyState* bodies, const Body* mobility, Extrapolation extrapolation)
+{
+	using Map = Eigen::Map<Vector3>;
+	const std::int32_t i1 = c.body1 < 0 ? ~c.body1 : c.body1, i2 = c.body2 < 0 ? ~c.body2 : c.body2;
+	Map v1(bodies[i1].velocity), w1(bodies[i1].angularVelocity), v2(bodies[i2].velocity), w2(bodies[i2].angularVelocity);
+
+	const Vector3 ahead = extrapolation.relax * c.increment + extrapolation.momentum * c.direction;
+	const Vector3 x = c.impulse + ahead;
+	c.direction = c.increment + ahead;
+	const Vector3 u = c.frame * (v2 - v1 + w2.cross(c.arm2) - w1.cross(c.arm1)) + c.offset;
+	const Vector3 r = c.local.solve(u - c.W * x, c.friction), dr = r - x;
+	c.impulse = r;
+	c.increment = dr;
+
+	const Vector3 push = c.frame.transpose() * dr;
+	if (c.body1 >= 0) {
+		v1 -= mobility[i1].inverseMass.cwiseProduct(push);
+		w1 -= mobility[i1].inverseInertia * c.arm1.cross(push);
+	}
+	if (c.body2 >= 0) {
+		v2 += mobility[i2].inverseMass.cwiseProduct(push);
+		w2 += mobility[i2].inverseInertia * c.arm2.cross(push);
+	}
+	return {dr.dot(c.W * dr), r.dot(c.W * r)};
+}
+
+} // namespace contactdynamics

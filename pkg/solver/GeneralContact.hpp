@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "BallPack.hpp"
+#include "GrainProblem.hpp"
+#include "OneContact.hpp"
+
+namespace contactdynamics {
+
+/// A contact with any W: non-spherical bodies, clumps, blocked degrees of freedom. Impulses and velocities in the local frame, normal first.
+struct GeneralContact {
+	std::int32_t id;		   ///< index of the contact in the problem
+	std::int32_t body1, body2; ///< complemented when the body cannot move, as in BallPack
+	Matrix3 frame;			   ///< rows n, t1, t2
+	Vector3 arm1, arm2;		   ///< [m]
+	Vector3 offset;			   ///< image velocity in the frame, plus the gap velocity on the normal [m/s]
+	Matrix3 W;				   ///< local Delassus operator [1/kg]
+	double friction;
+	OneContact local;
+	Vector3 impulse, increment, direction; ///< as in BallPack
+};
+
+/// Rows n, t1, t2 of a right-handed frame: a function of the normal alone.
+Matrix3 contactFrame(const Vector3& normal);
+
+/// W = H^T M^-1 H of one contact (29), in the frame.
+Matrix3 localDelassus(const Body& body1, const Body& body2, const Contact& contact, const Matrix3& frame);
+
+/// One visit, as BallSweep does it for balls.
+/// @param bodies  state of the sweep;  @param mobility  inverse masses and inertias of the same bodies
+SweepNorms visit(GeneralContact& contact, BodyState* bodies, const Body* mobility, Extrapolation extrapolation);
+
+} // namespace contactdynamics

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "Colouring.hpp"
+#include "Crew.hpp"
+#include "GeneralContact.hpp"
+#include "NaturalMap.hpp"
+#include "SolveReport.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace contactdynamics {
+
+/// W = H^T M^-1 H of a collection of rigid bodies, matrix-free, as signoriniCoulombLoop() uses it, with the work space of a solve.
+///
+/// A candidate far from closing costs next to nothing: it sleeps, that is, no sweep visits it; mend() looks at all sleepers and wakes those that
+/// close. Awake contacts are laid out by colour in packs of four; woken ones are appended as colours of their own, and now and then the layout is
+/// made anew without the contacts that turned out idle. All of it depends on the problem alone.
+class GrainOperator {
+public:
+	/// Takes the problem over until finish(): free velocities and start impulses, brought inside their cones.
+	void start(GrainProblem& problem, bool accelerated, int threads);
+	bool anyAwake() const { return awake > 0; }
+
+	SweepNorms sweep(Extrapolation by);
+	bool mend();
+	double certificate();
+
+	/// Writes velocities, impulses and status of the last certificate() into the problem, and the counts into the report.
+	void finish(SolveReport& report);
+
+private:
+	struct Chunk { // a run of contacts of one colour, visited by one thread, summed as one term
+		std::size_t firstPack, packs, firstGeneral, generals;
+	};
+	struct Group { // chunks of one colour
+		std::size_t firstChunk, lastChunk;
+	};
+	struct Sleeper {
+		Vector3 normal;
+		double offset; // gap velocity plus image velocity along the normal
+		std::int32_t body1, body2, id;
+		bool turns; // the rotation of the bodies changes the normal velocity
+	};
+	struct Sums {
+		ResidualSum residual;
+		double approach = 0;
+	};
+
+	GrainProblem* problem = nullptr;
+	BallSweep ballSweep = selectBallSweep();
+	bool accelerated = false;
+	int sweeps = 0;
+	std::optional<Crew> crew;
+	std::size_t awake = 0;
+	double maxApproachSpeed = 0;
+	SweepNorms lastNorms;
+
+	std::vector<BodyState> state, sweepStart, direction; // velocities now, at the start of the last sweep, and of the search direction
+	std::vector<std::uint8_t> movable;
+	std::vector<Vector3> impulses; // per contact, global axes, inside the cone: what certificate() speaks about
+	std::vector<std::uint8_t> mustWake;
+	std::vector<Sums> sums;
+
+	Colouring colouring;
+	std::vector<BallPack> packs, oldPacks;
+	std::vector<GeneralContact> generals, oldGenerals;
+	std::vector<Group> groups;
+	std::vector<Chunk> chunks;
+	std::vector<SweepNorms> chunkNorms;
+	std::vector<Sleeper> sleepers;
+	std::vector<std::int32_t> selected, colourOf, order;
+
+	bool isBall(const Contact& c) const { return c.ball && c.imageVelocity.isZero(0); }
+	std::int32_t indexOf(std::int32_t body) const { return movable[body] ? body : ~body; }
+	double normalVelocity(const Sleeper& s) const;
+	double normalVelocity(const Contact& c) const;
+	void addImpulse(const Contact& c, const Vector3& impulse);
+	void layOut(const std::vector<std::int32_t>& ids);
+	void putBall(BallPack& pack, int lane, std::int32_t id) const;
+	void putGeneral(GeneralContact& g, std::int32_t id) const;
+	void putSleeper(std::int32_t id);
+	void letIdleSleep();
+	void extrapolate(Extrapolation by, std::size_t first, std::size_t last);
+	void visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by);
+	void collectImpulses();
+	bool closes(const Contact& c) const;
+	double speedsAt(const Contact& c) const;
+	void freeVelocities();
+	void rebuildVelocities();
+	Sums certify(std::size_t first, std::size_t last);
+};
+
+} // namespace contactdynamics

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "GrainProblem.hpp"
+
+namespace contactdynamics {
+
+/// One frictional contact in its local frame (normal first), with everything that depends on W alone worked out once.
+///
+///     u = W r + b,   0 <= u_n _|_ r_n >= 0,   |r_t| <= mu r_n,   u_t = -k r_t with k >= 0, and k = 0 inside the cone    (31) of Jean (1999)
+///
+/// W is symmetric positive semi-definite. Elimination of r_n by u_n = 0 leaves A = W_tt - w w^T / W_nn (w = W_tn) and
+/// c = -(b_t - w b_n / W_nn), so that (A + k I) r_t = c: k = 0 sticks, k > 0 slides. A is diagonalised once; the sliding k is the
+/// root of a scalar function that always has a sign change, so that the solution cannot fail. (Only where A is singular and a wall drives the contact
+/// against it need there be none; the impulse stays finite then.)
+/// Local Newton on (2), (7) with fall-backs was rejected: it needs the same enumeration behind it and is no faster.
+class OneContact {
+public:
+	OneContact() = default;
+
+	/// @param W  local Delassus operator [1/kg], only the upper triangle is read; the eigenvalues of A below round-off are taken as zero
+	explicit OneContact(const Matrix3& W);
+
+	/// @param b   relative velocity without this contact, gap velocity added to the normal component [m/s]
+	/// @param mu  Coulomb coefficient >= 0
+	/// @return    impulse [N s]; zero when b_n >= 0, and when W_nn = 0 (nothing can move along the normal)
+	Vector3 solve(const Vector3& b, double mu) const;
+
+	double normalMobility() const { return Wnn; } ///< W_nn [1/kg]
+
+private:
+	double Wnn = 0;						   // [1/kg]
+	double wx = 0, wy = 0;				   // W_tn
+	double cosine = 1, sine = 0;		   // eigenvectors of A: (cosine, sine), (-sine, cosine)
+	double largeEigen = 0, smallEigen = 0; // of A, >= 0
+
+	double roundOff = 0; // of A [1/kg]
+
+	double slidingRate(double cLarge, double cSmall, double wLarge, double wSmall, double bn, double mu) const;
+};
+
+} // namespace contactdynamics

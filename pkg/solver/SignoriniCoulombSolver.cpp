@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "SignoriniCoulombSolver.hpp"
+
+#include "GrainOperator.hpp"
+#include "SignoriniCoulombLoop.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace contactdynamics {
+
+struct SignoriniCoulombSolver::Workspace : GrainOperator {};
+
+SignoriniCoulombSolver::SignoriniCoulombSolver() : workspace(std::make_unique<Workspace>()) {}
+SignoriniCoulombSolver::~SignoriniCoulombSolver() = default;
+
+namespace {
+
+void requireOptions(const SolverOptions& options)
+{
+	if (!(options.tolerance > 0)) throw std::invalid_argument("SolverOptions::tolerance is " + std::to_string(options.tolerance) + ", must be > 0");
+	if (options.maxIterations < 0)
+		throw std::invalid_argument("SolverOptions::maxIterations is " + std::to_string(options.maxIterations) + ", must be >= 0");
+	if (options.threads < 1) throw std::invalid_argument("SolverOptions::threads is " + std::to_string(options.threads) + ", must be >= 1");
+}
+
+[[noreturn]] void refuse(const GrainProblem& problem, std::size_t i, const std::string& what)
+{
+	const Contact& c = problem.contacts[i];
+	throw std::invalid_argument("contact " + std::to_string(i) + " between bodies " + std::to_string(c.body1) + " and " + std::to_string(c.body2) +
+								": " + what);
+}
+
+void requireContacts(const GrainProblem& problem)
+{
+	const auto count = std::int32_t(problem.bodies.size());
+	for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+		const Contact& c = problem.contacts[i];
+		if (c.body1 < 0 || c.body1 >= count || c.body2 < 0 || c.body2 >= count)
+			refuse(problem, i, "body index outside the " + std::to_string(count) + " bodies");
+		if (c.body1 == c.body2) refuse(problem, i, "a body cannot touch itself");
+		if (c.friction < 0) refuse(problem, i, "friction is " + std::to_string(c.friction) + ", must be >= 0");
+		if (std::abs(c.normal.squaredNorm() - 1) > 1e-9)
+			refuse(problem, i, "the normal has length " + std::to_string(c.normal.norm()) + ", must be 1");
+	}
+}
+
+bool isFinite(const GrainProblem& problem)
+{
+	double poison = 0; // zero times a finite number is zero, times anything else not a number
+	for (const Body& b : problem.bodies) poison += 0 * (b.velocity.sum() + b.angularVelocity.sum() + b.inverseMass.sum() + b.inverseInertia.sum());
+	for (const Contact& c : problem.contacts)
+		poison += 0 * (c.normal.sum() + c.arm1.sum() + c.arm2.sum() + c.imageVelocity.sum() + c.impulse.sum() + c.friction + c.gapVelocity);
+	return poison == 0;
+}
+
+} // namespace
+
+SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOptions& options)
+{
+	requireOptions(options);
+	requireContacts(problem);
+	SolveReport report;
+	report.status = SolveStatus::notFinite;
+	if (!isFinite(problem)) return report;
+
+	GrainOperator& grains = *workspace;
+	grains.start(problem, options.acceleration != Acceleration::none, options.threads);
+	const LoopResult result = signoriniCoulombLoop(grains, options);
+	report.iterations = result.iterations;
+	report.residual = result.residual;
+	if (!std::isfinite(result.residual)) return report;
+	grains.finish(report);
+	report.status = result.residual <= options.tolerance ? SolveStatus::converged : SolveStatus::maxIterations;
+	return report;
+}
+
+} // namespace contactdynamics

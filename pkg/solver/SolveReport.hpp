@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+namespace contactdynamics {
+
+enum class SolveStatus {
+	converged,	   ///< residual <= tolerance at the returned point
+	maxIterations, ///< residual > tolerance: the returned point is the last one, inside the cones and consistent with the velocities
+	notFinite	   ///< input or iterate not finite: bodies and impulses are left as given
+};
+
+struct SolveReport {
+	SolveStatus status = SolveStatus::converged;
+	int iterations = 0;			 ///< sweeps done
+	double residual = 0;		 ///< relative natural map at the returned point, over all contacts, see NaturalMap.hpp [-]
+	double maxApproachSpeed = 0; ///< largest max(0, -(U_N + s)) at the returned point [m/s]
+	int activeContacts = 0;		 ///< contacts with a non-zero impulse
+};
+
+} // namespace contactdynamics

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+namespace contactdynamics {
+
+/// What is done between two sweeps of the Signorini-Coulomb loop.
+enum class Acceleration {
+	none,	  ///< plain nonlinear block Gauss-Seidel, section 5.4 of Jean (1999)
+	conjugate ///< momentum on the sweep with restart and safeguard, see Accelerator.hpp
+};
+
+struct SolverOptions {
+	double tolerance = 1e-4;  ///< bound on SolveReport::residual [-]; 1e-3 quasi-static flow, 1e-4 default, 1e-8 to 1e-12 verification; > 0
+	int maxIterations = 1000; ///< sweeps over the contacts; 0 only evaluates the residual of the impulses handed over
+	Acceleration acceleration = Acceleration::conjugate;
+	int threads = 1; ///< OpenMP threads, >= 1; the result does not depend on it, bit for bit
+};
+
+} // namespace contactdynamics

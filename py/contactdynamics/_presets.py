@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Ready-made engine lists."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from yade import wrapper
+
+
+def engines(
+    gravity: Sequence[float] = (0, 0, -9.81),
+    tolerance: float = 1e-4,
+    maxIterations: int = 1000,
+    contactLaw: str = "quasiInelasticShock",
+    **more: Any,
+) -> list:
+    """Return the complete ``O.engines`` of a Contact Dynamics scene of Sphere, Box, Wall, Facet and Clump bodies.
+
+    The list is ForceResetter, InsertionSortCollider, InteractionLoop, ContactDynamicsEngine (label ``cd``) and
+    NewtonIntegrator without damping (label ``newton``). Engines of your own that add forces or set velocities go
+    between the InteractionLoop and ``cd``, recorders and controllers behind the NewtonIntegrator::
+
+        O.engines = contactdynamics.engines(gravity=(0, 0, -9.81)) + [PyRunner(command="report()", iterPeriod=100)]
+
+    :param gravity: acceleration of gravity [m/s2], global axes
+    :param tolerance: bound on the residual of the solve [-], > 0 (``ContactDynamicsEngine.tolerance``)
+    :param maxIterations: largest number of sweeps a step, >= 1 (``ContactDynamicsEngine.maxIterations``)
+    :param contactLaw: ``quasiInelasticShock``, ``velocitySignorini`` or ``signorini``, Jean (1999) eqs. (25), (23), (24)
+    :param more: further attributes of ContactDynamicsEngine, such as ``warmStart=False`` or ``onNonConvergence="raise"``
+    :raises ValueError: an attribute has a value that is not admissible; its message names attribute, value and what is allowed
+    :raises AttributeError: ContactDynamicsEngine has no attribute of that name
+    """
+    more.setdefault("label", "cd")
+    return [
+        wrapper.ForceResetter(),
+        wrapper.InsertionSortCollider(
+            [
+                wrapper.Bo1_Sphere_Aabb_Proximity(),
+                wrapper.Bo1_Box_Aabb_Proximity(),
+                wrapper.Bo1_Facet_Aabb_Proximity(),
+                wrapper.Bo1_Wall_Aabb_Proximity(),
+            ],
+            # Contact Dynamics steps are long: bodies move a good part of the margin in each of them, so sorting every
+            # step costs less than the larger margin that would make it worth to skip some.
+            verletDist=0,
+        ),
+        wrapper.InteractionLoop(
+            [
+                wrapper.Ig2_Sphere_Sphere_ScGeom_Proximity(),
+                wrapper.Ig2_Box_Sphere_ScGeom_Proximity(),
+                wrapper.Ig2_Facet_Sphere_ScGeom_Proximity(),
+                wrapper.Ig2_Wall_Sphere_ScGeom_Proximity(),
+            ],
+            [wrapper.Ip2_FrictMat_FrictMat_ContactDynamicsPhys()],
+            [wrapper.Law2_ScGeom_ContactDynamicsPhys_SignoriniCoulomb()],
+        ),
+        wrapper.ContactDynamicsEngine(
+            tolerance=tolerance, maxIterations=maxIterations, contactLaw=contactLaw, **more
+        ),
+        wrapper.NewtonIntegrator(damping=0, gravity=gravity, label="newton"),
+    ]

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Two thousand grains poured into a box and settled: overlaps, cone, residual, energy and weight all the way."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from yade import O
+
+from scenes import EPS, G, box, cd, contacts, equip, grain, material, overlaps, state, vec
+
+R, FRICTION, TOLERANCE = 0.01, 0.4, 1e-4
+H = 0.05 * math.sqrt(R / G)
+ACROSS, LAYERS = 12, 14
+POURING_SPEED = 2.0  # with the fall of some 0.3 m the grains arrive at 3 m/s and more
+
+
+def pour() -> None:
+    """A loose cloud of ACROSS^2 * LAYERS spheres above the floor of a box of five fixed boxes."""
+    generator = np.random.default_rng(12)
+    material(FRICTION)
+    half = ACROSS * 1.15 * R
+    thick, tall = 5 * R, LAYERS * 3 * R
+    box((0, 0, -thick), (half + 2 * thick, half + 2 * thick, thick))
+    for sign in (-1, 1):
+        box((sign * (half + thick), 0, tall), (thick, half + 2 * thick, tall))
+        box((0, sign * (half + thick), tall), (half + 2 * thick, thick, tall))
+    for k in range(ACROSS**2 * LAYERS):
+        i, j, layer = k % ACROSS, k // ACROSS % ACROSS, k // ACROSS**2
+        place = np.array([(2 * i + 1) * 1.15 * R - half, (2 * j + 1) * 1.15 * R - half, (1.2 + 2.4 * layer) * R])
+        radius = R * generator.uniform(0.8, 1.0)
+        velocity = np.array([0, 0, -POURING_SPEED]) + generator.uniform(-0.3, 0.3, 3)
+        grain(place + generator.uniform(-0.1, 0.1, 3) * R, radius, velocity=velocity)
+    equip(H, tolerance=TOLERANCE, maxIterations=20000)
+
+
+class Watch:
+    """Looks at every step of the pour and keeps what it finds."""
+
+    def __init__(self) -> None:
+        free = [b for b in O.bodies if b.dynamic]
+        self.ids = [b.id for b in free]
+        self.mass = np.array([b.state.mass for b in free])
+        self.inertia = np.array([b.state.inertia[0] for b in free])
+        self.inverse_mass = np.zeros(len(O.bodies))
+        self.inverse_mass[self.ids] = 1 / self.mass
+        self.max_overlap = self.mean_overlap = self.engine_max = self.engine_mean = 0.0
+        self.residual = self.cone = 0.0
+        self.energy_excess = -math.inf
+        self.iterations: list[int] = []
+
+    def __call__(self) -> None:
+        solver = cd()
+        assert solver.converged, f"step {O.iter}: residual {solver.residual} after {solver.iterations} iterations"
+        self.residual = max(self.residual, solver.residual)
+        self.iterations.append(solver.iterations)
+        self.engine_max = max(self.engine_max, solver.maxPenetration / R)
+        self.engine_mean = max(self.engine_mean, solver.meanPenetration / R)
+        if O.iter % 10 == 0:
+            self.look_closer()
+
+    def look_closer(self) -> None:
+        """What takes Python some time: every contact, and the energy of the solve."""
+        found = overlaps() / R
+        if len(found):
+            self.max_overlap = max(self.max_overlap, found.max())
+            self.mean_overlap = max(self.mean_overlap, found.mean())
+        impulses, approach = 0.0, 0.0
+        for i in contacts():
+            p, n = vec(i.phys.impulse), vec(i.geom.normal)
+            push = p @ n
+            drag = np.linalg.norm(p - push * n)
+            if push > 0 or drag > 0:
+                outside = (drag - i.phys.tangensOfFrictionAngle * push) / push if push > 0 else math.inf
+                self.cone = max(self.cone, outside)
+            w = self.inverse_mass[i.id1] + self.inverse_mass[i.id2]
+            u = vec(i.phys.localVelocity)
+            slack = u[0] + max(0.0, i.phys.gap) / H + FRICTION * math.hypot(u[1], u[2])
+            impulses += w * (p @ p)
+            approach += (slack**2 + u[1] ** 2 + u[2] ** 2) / w if push > 0 else 0.0
+        change = self.energy(cd().predictedVelocities()) - self.energy(cd().freeVelocities())
+        # With F the residual vector, |F| <= tolerance |P| in the W norm, and s >= 0 the gap velocities, the work of the
+        # impulses is P . U - P . W P / 2 <= |F| (|P| + |U|) (see the comment of the test). The tangential part of W is
+        # 7/2 of the normal one by which it is measured here.
+        norm, speed = math.sqrt(3.5 * impulses), math.sqrt(approach)
+        allowance = 3.5 * TOLERANCE * norm * (norm + speed) + 1e3 * EPS * self.energy(cd().freeVelocities())
+        self.energy_excess = max(self.energy_excess, change - allowance)
+
+    def energy(self, velocities) -> float:
+        v = np.array([[*velocities[n][0], *velocities[n][1]] for n in self.ids])
+        return float(0.5 * (self.mass @ (v[:, :3] ** 2).sum(1) + self.inertia @ (v[:, 3:] ** 2).sum(1)))
+
+
+@pytest.fixture(scope="module")
+def poured() -> Watch:
+    """The pour, until nothing moves any more; the scene stays for the tests of this module."""
+    O.reset()
+    pour()
+    watch = Watch()
+    weight = watch.mass.sum() * G
+    # At rest: the rate of change of the momentum is below 1e-5 of the weight over 20 steps, and speeds are such that
+    # a grain moves by less than 1e-4 r in the time it would need to fall by r.
+    for _ in range(3000):
+        O.step()
+        watch()
+        if O.iter % 20 == 0:
+            fastest = max(state(n).vel.norm() for n in watch.ids)
+            if fastest < 1e-4 * math.sqrt(R * G) and abs(vertical_support() / weight - 1) < 2e-5:
+                break
+    else:
+        raise AssertionError(f"not at rest after {O.iter} steps: {fastest} m/s, support {vertical_support() / weight}")
+    mean, most = np.mean(watch.iterations), max(watch.iterations)
+    print(f"pour: {O.iter} steps, iterations mean {mean:.0f} max {most}, {cd().contacts} contacts")
+    return watch
+
+
+def vertical_support() -> float:
+    """Vertical force on floor and walls together, downwards positive."""
+    return -sum(O.forces.f(n)[2] for n in range(5))
+
+
+@pytest.fixture(autouse=True)
+def fresh_scene():
+    """The tests of this module look at one scene, so it is not cleared between them."""
+    yield
+
+
+def test_size_of_the_packing(poured: Watch) -> None:
+    assert len(poured.ids) >= 2000
+
+
+def test_weight_is_carried_by_floor_and_walls(poured: Watch) -> None:
+    assert vertical_support() == pytest.approx(poured.mass.sum() * G, rel=1e-4)
+
+
+def test_every_solve_met_the_tolerance(poured: Watch) -> None:
+    assert 0 < poured.residual <= TOLERANCE
+
+
+def test_every_contact_is_inside_the_cone(poured: Watch) -> None:
+    assert poured.cone <= 1e-12
+
+
+def test_overlaps_during_the_whole_pour(poured: Watch) -> None:
+    """Limits of the project, on the engine's own figures (every step) and on those taken from the shapes."""
+    assert poured.engine_max < 2e-2 and poured.max_overlap < 2e-2, (poured.engine_max, poured.max_overlap)
+    assert poured.engine_mean < 1e-4 and poured.mean_overlap < 1e-4, (poured.engine_mean, poured.mean_overlap)
+    assert poured.max_overlap > 0, "overlaps were not measured"
+
+
+def test_nothing_left_the_box(poured: Watch) -> None:
+    half = ACROSS * 1.15 * R
+    for n in poured.ids:
+        x, y, z = state(n).pos
+        assert max(abs(x), abs(y)) < half and 0 < z < LAYERS * 3 * R
+
+
+def test_no_solve_adds_energy(poured: Watch) -> None:
+    """e = 0, nothing is driven: the energy with contacts is not above the one without.
+
+    Let z = P - V/W_N with V = U + s n + mu |U_T| n, p its projection on the cone and F = P - p the residual. From
+    p . (p - z) = 0 and z - p in the polar cone follows P . V <= W_N |F| (|P| + |V| / W_N). The change of energy is
+    P . U - P . W P / 2, and P . U = P . V - s P_N - mu |U_T| P_N <= P . V.
+    """
+    assert poured.energy_excess <= 0
+
+
+def test_energy_of_the_pour_is_that_of_grains_at_rest(poured: Watch) -> None:
+    """Nearly all of it is gone: the state is a rest, not a slow flow."""
+    initial = 0.5 * poured.mass.sum() * POURING_SPEED**2
+    assert poured.energy(cd().predictedVelocities()) < 1e-7 * initial

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Whatever is thrown at it: a truthful status, never NaN, the same bits for any number of threads and whatever was solved before.
+#include "IndependentResidual.hpp"
+#include "Scenes.hpp"
+#include "pkg/solver/SignoriniCoulombSolver.hpp"
+
+#include <gtest/gtest.h>
+#include <limits>
+
+using namespace contactdynamics;
+
+namespace {
+
+bool sameBits(const GrainProblem& a, const GrainProblem& b)
+{
+	for (std::size_t i = 0; i < a.bodies.size(); ++i)
+		if (a.bodies[i].velocity != b.bodies[i].velocity || a.bodies[i].angularVelocity != b.bodies[i].angularVelocity) return false;
+	for (std::size_t i = 0; i < a.contacts.size(); ++i)
+		if (a.contacts[i].impulse != b.contacts[i].impulse || a.contacts[i].relativeVelocity != b.contacts[i].relativeVelocity ||
+			a.contacts[i].status != b.contacts[i].status)
+			return false;
+	return true;
+}
+
+/// Small problems that are degenerate on purpose: parallel and repeated contacts, blocked bodies, zero friction, huge ratios, wild starts.
+/// A solution is known to exist when standing still violates nothing (walls at rest, no gap closed already); else walls may crush what is between.
+GrainProblem degenerate(std::mt19937_64& random, bool solvable)
+{
+	std::uniform_real_distribution<double> uniform(0, 1);
+	std::normal_distribution<double> normal;
+	const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+	GrainProblem problem;
+	const int bodies = 2 + int(10 * uniform(random));
+	for (int i = 0; i < bodies; ++i) {
+		Body body = scenes::ball(std::pow(10, 6 * uniform(random) - 3), 0.1 + uniform(random), vector(),
+								 uniform(random) < 0.5 ? Vector3(vector()) : Vector3(Vector3::Zero()));
+		if (uniform(random) < 0.2) body = scenes::wall();
+		if (uniform(random) < 0.2) body.inverseMass[int(3 * uniform(random))] = 0;
+		if (uniform(random) < 0.2) body.inverseInertia.setZero();
+		const bool blocked = (body.inverseMass.array() == 0).any() || body.inverseInertia.isZero(0);
+		if (uniform(random) < 0.2 || (solvable && blocked)) {
+			body.velocity.setZero();
+			body.angularVelocity.setZero();
+		}
+		problem.bodies.push_back(body);
+	}
+	const int contacts = 1 + int(80 * std::pow(uniform(random), 3));
+	for (int k = 0; k < contacts; ++k) {
+		if (k && uniform(random) < 0.2) {
+			problem.contacts.push_back(problem.contacts[std::size_t(k * uniform(random))]);
+			continue;
+		}
+		const int i = int(bodies * uniform(random)), j = (i + 1 + int((bodies - 1) * uniform(random))) % bodies;
+		const Vector3 n = uniform(random) < 0.3 ? Vector3(Vector3::Unit(int(3 * uniform(random)))) : Vector3(vector().normalized());
+		Contact c = scenes::touch(i, uniform(random), j, uniform(random), n, uniform(random) < 0.2 ? 0 : 2 * uniform(random));
+		const auto isotropic = [](const Body& b) {
+			return b.inverseMass.isConstant(b.inverseMass[0]) && b.inverseInertia.isApprox(b.inverseInertia(0, 0) * Matrix3::Identity());
+		};
+		c.ball = isotropic(problem.bodies[i]) && isotropic(problem.bodies[j]) && uniform(random) < 0.7;
+		if (!c.ball && uniform(random) < 0.7) c.arm1 = vector(), c.arm2 = vector();
+		if (uniform(random) < 0.3) c.gapVelocity = 2 * uniform(random) - (solvable ? 0 : 0.5);
+		if (!solvable && uniform(random) < 0.1) c.imageVelocity = vector();
+		if (uniform(random) < 0.3) c.impulse = vector() * std::pow(10, 6 * uniform(random) - 3);
+		problem.contacts.push_back(c);
+	}
+	return problem;
+}
+
+} // namespace
+
+TEST(Robustness, ThousandsOfDegenerateProblemsEndWithATruthfulStatus)
+{
+	SignoriniCoulombSolver solver;
+	std::mt19937_64 random(5);
+	SolverOptions options;
+	options.tolerance = 1e-6;
+	options.maxIterations = 500;
+	int converged = 0;
+	for (int k = 0; k < 10000; ++k) {
+		const bool solvable = k % 2;
+		GrainProblem problem = degenerate(random, solvable);
+		const GrainProblem free = problem;
+		const SolveReport report = solver.solve(problem, options);
+		ASSERT_NE(report.status, SolveStatus::notFinite) << k;
+		ASSERT_EQ(report.status == SolveStatus::converged, report.residual <= options.tolerance) << k;
+		const double independent = independent::residual(free, problem);
+		ASSERT_TRUE(std::isfinite(independent)) << k;
+		// The independent residual knows no round-off threshold: where all there is left is round-off, the approach itself must be.
+		if (report.residual > 0) {
+			ASSERT_NEAR(report.residual, independent, 1e-9 + 1e-6 * independent) << k;
+		} else {
+			for (const Contact& c : problem.contacts)
+				if (c.normal.dot(independent::delassus(free, c) * c.normal) > 0) {
+					ASSERT_GE(c.relativeVelocity.dot(c.normal) + c.gapVelocity, -1e-13) << k;
+				}
+		}
+		for (const Contact& c : problem.contacts) {
+			const double rn = c.impulse.dot(c.normal);
+			ASSERT_LE((c.impulse - rn * c.normal).norm(), c.friction * rn + 1e-12 * c.impulse.norm()) << k;
+		}
+		converged += solvable && report.status == SolveStatus::converged;
+	}
+	EXPECT_GT(converged, 3500); // of 5000; most others have mass ratios of a million between repeated contacts
+}
+
+TEST(Robustness, HardFrictionEndsTruthfully)
+{
+	// Dense random heaps with mu = 1: every sweep-based method that was tried stalls on some of them.
+	SignoriniCoulombSolver solver;
+	SolverOptions options;
+	options.tolerance = 1e-8;
+	for (unsigned seed = 0; seed < 10; ++seed) {
+		GrainProblem problem = scenes::heap(5, seed, 1);
+		const GrainProblem free = problem;
+		const SolveReport report = solver.solve(problem, options);
+		EXPECT_EQ(report.status == SolveStatus::converged, report.residual <= 1e-8);
+		EXPECT_NEAR(report.residual, independent::residual(free, problem), 1e-6 * report.residual);
+		EXPECT_LT(report.residual, 0.05);
+	}
+}
+
+TEST(Reproducible, SameBitsForAnyNumberOfThreads)
+{
+	// More than three thousand awake contacts, so that the crew really is at work; balls and general contacts.
+	for (const bool general : {false, true}) {
+		const GrainProblem given = scenes::heap(general ? 12 : 14, 11, 0.3, true, general);
+		SolverOptions options;
+		options.maxIterations = 60;
+		GrainProblem one = given;
+		const SolveReport first = SignoriniCoulombSolver().solve(one, options);
+		for (const int threads : {2, 3, 8}) {
+			GrainProblem more = given;
+			options.threads = threads;
+			const SolveReport report = SignoriniCoulombSolver().solve(more, options);
+			EXPECT_EQ(report.iterations, first.iterations);
+			EXPECT_EQ(report.residual, first.residual);
+			EXPECT_TRUE(sameBits(one, more)) << threads << " threads";
+		}
+	}
+}
+
+TEST(Reproducible, NoMemoryOfEarlierProblems)
+{
+	const GrainProblem given = scenes::heap(6, 2);
+	SignoriniCoulombSolver used;
+	for (unsigned seed = 3; seed < 6; ++seed) {
+		GrainProblem other = scenes::heap(int(seed), seed, 0.5, true, seed % 2);
+		used.solve(other, {});
+	}
+	GrainProblem a = given, b = given;
+	used.solve(a, {});
+	SignoriniCoulombSolver().solve(b, {});
+	EXPECT_TRUE(sameBits(a, b));
+}
+
+TEST(Reproducible, BodyWithMoreContactsThanColours)
+{
+	// A big ball in a cage of two hundred small ones: the overflow colour. Momentum of the whole is kept.
+	std::mt19937_64 random(1);
+	std::normal_distribution<double> normal;
+	GrainProblem problem;
+	problem.bodies.push_back(scenes::ball(10, 1, {0.3, -0.2, 0.1}));
+	for (int i = 1; i <= 200; ++i) {
+		const Vector3 n = Vector3(normal(random), normal(random), normal(random)).normalized();
+		problem.bodies.push_back(scenes::ball(0.1, 0.1, -n));
+		problem.contacts.push_back(scenes::touch(0, 1, i, 0.1, n, 0.4));
+	}
+	const GrainProblem free = problem;
+	SolverOptions options;
+	options.tolerance = 1e-10;
+	const SolveReport report = SignoriniCoulombSolver().solve(problem, options);
+	ASSERT_EQ(report.status, SolveStatus::converged);
+	EXPECT_LE(independent::residual(free, problem), 1.01e-10);
+	Vector3 before = Vector3::Zero(), after = before;
+	for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
+		before += free.bodies[i].velocity / free.bodies[i].inverseMass[0];
+		after += problem.bodies[i].velocity / problem.bodies[i].inverseMass[0];
+	}
+	EXPECT_LE((after - before).norm(), 1e-13 * 30); // total of the speeds times masses is 30
+}
+
+TEST(BadInput, NotFiniteLeavesTheProblemAsGiven)
+{
+	const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+	for (const double bad : {nan, infinity, -infinity}) {
+		for (int where = 0; where < 7; ++where) {
+			GrainProblem problem = scenes::column(3, 0.1);
+			switch (where) {
+			case 0:
+				problem.bodies[1].velocity[1] = bad;
+				break;
+			case 1:
+				problem.bodies[1].angularVelocity[2] = bad;
+				break;
+			case 2:
+				problem.bodies[1].inverseMass[0] = bad;
+				break;
+			case 3:
+				problem.bodies[1].inverseInertia(1, 1) = bad;
+				break;
+			case 4:
+				problem.contacts[1].gapVelocity = bad;
+				break;
+			case 5:
+				problem.contacts[1].impulse[0] = bad;
+				break;
+			case 6:
+				problem.contacts[1].arm1[0] = bad;
+				break;
+			}
+			GrainProblem given = problem;
+			EXPECT_EQ(SignoriniCoulombSolver().solve(problem, {}).status, SolveStatus::notFinite) << where;
+			EXPECT_EQ(problem.bodies[2].velocity, given.bodies[2].velocity);
+			EXPECT_EQ(problem.contacts[0].impulse, given.contacts[0].impulse);
+		}
+	}
+}
+
+TEST(BadInput, IsRefusedByName)
+{
+	const auto message = [](auto&& spoil, SolverOptions options = {}) -> std::string {
+		GrainProblem problem = scenes::column(3, 0.1);
+		spoil(problem);
+		try {
+			SignoriniCoulombSolver().solve(problem, options);
+		} catch (const std::invalid_argument& error) {
+			return error.what();
+		}
+		return "nothing thrown";
+	};
+	const auto keep = [](GrainProblem&) {};
+	EXPECT_NE(message([](GrainProblem& p) { p.contacts[1].friction = -0.5; }).find("contact 1 between bodies 1 and 2: friction is -0.5"),
+			  std::string::npos);
+	EXPECT_NE(message([](GrainProblem& p) { p.contacts[1].body2 = 4; }).find("contact 1 between bodies 1 and 4"), std::string::npos);
+	EXPECT_NE(message([](GrainProblem& p) { p.contacts[2].body1 = -1; }).find("contact 2"), std::string::npos);
+	EXPECT_NE(message([](GrainProblem& p) { p.contacts[0].body2 = 0; }).find("cannot touch itself"), std::string::npos);
+	EXPECT_NE(message([](GrainProblem& p) { p.contacts[0].normal *= 2; }).find("length 2"), std::string::npos);
+	SolverOptions options;
+	options.tolerance = 0;
+	EXPECT_NE(message(keep, options).find("tolerance"), std::string::npos);
+	options = {};
+	options.maxIterations = -1;
+	EXPECT_NE(message(keep, options).find("maxIterations"), std::string::npos);
+	options = {};
+	options.threads = 0;
+	EXPECT_NE(message(keep, options).find("threads"), std::string::npos);
+}
+
+TEST(Empty, NothingToSolve)
+{
+	GrainProblem problem;
+	SolveReport report = SignoriniCoulombSolver().solve(problem, {});
+	EXPECT_EQ(report.status, SolveStatus::converged);
+	EXPECT_EQ(report.residual, 0);
+	problem.bodies.push_back(scenes::ball(1, 1, {1, 2, 3}));
+	report = SignoriniCoulombSolver().solve(problem, {});
+	EXPECT_EQ(report.status, SolveStatus::converged);
+	EXPECT_EQ(report.iterations, 0);
+	EXPECT_EQ(problem.bodies[0].velocity, Vector3(1, 2, 3));
+}

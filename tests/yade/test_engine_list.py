@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Mistakes in O.engines are named at the first step, and the corrected list works."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from yade import GlobalStiffnessTimeStepper, NewtonIntegrator, O, PyRunner
+
+from contactdynamics import ContactDynamicsEngine
+from scenes import contact, engine, equip, floor, grain, material, state, steps, vec
+
+H = 1e-3
+
+
+def scene() -> list:
+    """Ball on a floor; returns the correct list of engines."""
+    material()
+    floor()
+    grain((0, 0, 1))
+    equip(H)
+    return list(O.engines)
+
+
+def without(engines: list, class_name: str) -> list:
+    return [e for e in engines if type(e).__name__ != class_name]
+
+
+def refused(*words: str) -> None:
+    with pytest.raises((RuntimeError, ValueError)) as caught:
+        O.step()
+    for word in words:
+        assert re.search(word, str(caught.value)), f"{word!r} is missing in the message: {caught.value}"
+
+
+def works() -> None:
+    steps(20)
+    assert abs(state(1).pos[2] - 1) < 1e-10
+    assert vec(O.forces.f(1))[2] == pytest.approx(state(1).mass * 9.81, rel=1e-9)
+
+
+@pytest.mark.parametrize("damping", [0.2, -0.1, float("nan")])
+def test_damping(damping: float) -> None:
+    scene()
+    engine("NewtonIntegrator").damping = damping
+    refused("damping", "NewtonIntegrator", "nan" if damping != damping else re.escape(f"{damping:g}"))
+    engine("NewtonIntegrator").damping = 0
+    works()
+
+
+def test_no_integrator() -> None:
+    right = scene()
+    O.engines = without(right, "NewtonIntegrator")
+    refused("NewtonIntegrator")
+    O.engines = right
+    works()
+
+
+def test_integrator_before_the_engine() -> None:
+    right = scene()
+    O.engines = without(right, "NewtonIntegrator")[:-1] + [engine("NewtonIntegrator"), engine("ContactDynamicsEngine")]
+    refused("NewtonIntegrator", "behind|after")
+    O.engines = right
+    works()
+
+
+def test_two_integrators() -> None:
+    right = scene()
+    O.engines = right + [NewtonIntegrator(damping=0)]
+    refused("NewtonIntegrator", "two|2|one")
+    O.engines = right
+    works()
+
+
+def test_one_integrator_before_and_one_after() -> None:
+    right = scene()
+    O.engines = [right[0], NewtonIntegrator(damping=0)] + right[1:]
+    refused("NewtonIntegrator")
+    O.engines = right
+    works()
+
+
+def test_dead_integrator() -> None:
+    scene()
+    engine("NewtonIntegrator").dead = True
+    refused("NewtonIntegrator", "live|dead")
+    engine("NewtonIntegrator").dead = False
+    works()
+
+
+def test_dead_integrator_beside_a_living_one() -> None:
+    """A dead engine does nothing, so it is no second integrator."""
+    right = scene()
+    O.engines = right + [NewtonIntegrator(damping=0, dead=True)]
+    works()
+
+
+def test_no_force_resetter() -> None:
+    right = scene()
+    O.engines = without(right, "ForceResetter")
+    refused("ForceResetter")
+    O.engines = right
+    works()
+
+
+def test_force_resetter_after_the_engine() -> None:
+    """Contact forces would be wiped before the integrator sees them."""
+    right = scene()
+    resetter = engine("ForceResetter")
+    O.engines = right[1:-1] + [resetter, right[-1]]
+    refused("ForceResetter")
+    O.engines = right
+    works()
+
+
+def test_dead_force_resetter() -> None:
+    scene()
+    engine("ForceResetter").dead = True
+    refused("ForceResetter")
+    engine("ForceResetter").dead = False
+    works()
+
+
+def test_engine_before_the_interaction_loop() -> None:
+    """Contacts of the last step would be solved: the order is refused."""
+    right = scene()
+    loop, solver = engine("InteractionLoop"), engine("ContactDynamicsEngine")
+    rest = [e for e in right if type(e).__name__ not in ("InteractionLoop", "ContactDynamicsEngine")]
+    O.engines = rest[:-1] + [solver, loop, rest[-1]]
+    refused("InteractionLoop")
+    O.engines = right
+    works()
+
+
+def test_two_contact_dynamics_engines() -> None:
+    """Each would add the whole reaction."""
+    right = scene()
+    O.engines = right[:-1] + [ContactDynamicsEngine(), right[-1]]
+    refused("ContactDynamicsEngine")
+    O.engines = right
+    works()
+
+
+def test_global_stiffness_time_stepper() -> None:
+    """YADE's default engine list has one; without stiffness it would set the step to nonsense."""
+    right = scene()
+    O.engines = right[:-1] + [GlobalStiffnessTimeStepper(), right[-1]]
+    refused("GlobalStiffnessTimeStepper")
+    O.dt = H
+    O.engines = right
+    works()
+
+
+def test_other_engines_are_welcome() -> None:
+    """In front of the engine and behind the integrator, as scripts have them."""
+    right = scene()
+    nothing = [PyRunner(command="pass", iterPeriod=1) for _ in range(2)]
+    O.engines = right[:1] + nothing[:1] + right[1:] + nothing[1:]
+    works()
+
+
+def test_dead_engine_applies_nothing() -> None:
+    """With the engine dead the ball falls through the floor, as any YADE engine that is switched off."""
+    scene()
+    engine("ContactDynamicsEngine").dead = True
+    steps(5)
+    assert state(1).vel[2] == pytest.approx(-5 * 9.81 * H, rel=1e-12)
+
+
+def test_mistake_made_in_mid_run_is_found() -> None:
+    scene()
+    steps(10)
+    engine("NewtonIntegrator").damping = 0.3
+    refused("damping")
+    engine("NewtonIntegrator").damping = 0
+    works()
+    assert contact(0, 1) is not None

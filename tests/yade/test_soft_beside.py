@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Soft contacts beside Contact Dynamics in one scene: one pair of materials soft, the others rigid."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from yade import (
+    CohFrictMat,
+    Ig2_Sphere_Sphere_ScGeom6D,
+    Ip2_CohFrictMat_CohFrictMat_CohFrictPhys,
+    Ip2_ViscElMat_ViscElMat_ViscElPhys,
+    Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
+    Law2_ScGeom_ViscElPhys_Basic,
+    O,
+    ViscElMat,
+)
+
+from prediction import step_and_compare
+from scenes import active, cd, contacts, engine, equip, floor, grain, material, state, steps, until_rest, vec
+
+H = 1e-4
+STIFF, VISCOUS = 1e8, 1e6
+
+
+def soft_material() -> ViscElMat:
+    """Its contacts with itself have half of each constant, because YADE puts the two bodies in series."""
+    kn, cn = 2 * STIFF, 2 * VISCOUS
+    number = O.materials.append(ViscElMat(kn=kn, cn=cn, ks=kn, cs=cn, frictionAngle=math.atan(0.5), density=2600))
+    return O.materials[number]
+
+
+def add_soft_law() -> None:
+    loop = engine("InteractionLoop")
+    loop.physDispatcher.functors = loop.physDispatcher.functors + [Ip2_ViscElMat_ViscElMat_ViscElPhys()]
+    loop.lawDispatcher.functors = loop.lawDispatcher.functors + [Law2_ScGeom_ViscElPhys_Basic()]
+
+
+def pile() -> tuple[int, int, int]:
+    """A rigid ball on a soft ball on a fixed soft ball."""
+    rigid, soft = material(), soft_material()
+    base = grain((0, 0, 0), material=soft, fixed=True)
+    middle = grain((0, 0, 2), material=soft)
+    top = grain((0, 0, 4), material=rigid)
+    equip(H, tolerance=1e-12, maxIterations=10000)
+    add_soft_law()
+    return base, middle, top
+
+
+def test_rigid_ball_on_a_soft_one() -> None:
+    """At rest the soft contact is compressed by the weight of both balls, the rigid one not at all.
+
+    The two contacts are told apart by their class; k = STIFF is the stiffness that YADE's law reports.
+    """
+    base, middle, top = pile()
+    # Critical damping is 2 sqrt(k m) = 3e6 for both balls together: the motion dies out within some 0.1 s.
+    until_rest(1e-9, 40000, every=1000)
+    weight = state(top).mass * 9.81
+    soft = O.interactions[base, middle]
+    assert type(soft.phys).__name__ == "ViscElPhys"
+    assert type(O.interactions[middle, top].phys).__name__ == "ContactDynamicsPhys"
+    assert soft.phys.normalForce.norm() == pytest.approx(2 * weight, rel=1e-6)
+    assert 2 - (state(middle).pos - state(base).pos).norm() == pytest.approx(2 * weight / soft.phys.kn, rel=1e-6)
+    assert O.interactions[middle, top].phys.normalForce.norm() == pytest.approx(weight, rel=1e-6)
+    assert (state(top).pos - state(middle).pos).norm() == pytest.approx(2, abs=1e-9)
+    assert cd().contacts == 1, "soft contacts are none of the engine's"
+
+
+def test_prediction_includes_soft_forces() -> None:
+    """Soft forces are external to the solve."""
+    pile()
+    for _ in range(50):
+        step_and_compare(forces=2 * STIFF / state(1).mass * 1e-2)
+
+
+def test_soft_pair_is_the_same_with_and_without_the_engine() -> None:
+    """Two soft balls that collide know nothing of the engine: bit by bit the same motion."""
+    tracks = []
+    for use in (True, False):
+        O.reset()
+        soft = soft_material()
+        grain((0, 0, 0), velocity=(3, 0, 0), material=soft)
+        grain((2.005, 0.5, 0), velocity=(-2, 0, 1), material=soft)
+        equip(H, gravity=(0, 0, 0))
+        add_soft_law()
+        if not use:
+            O.engines = [e for e in O.engines if type(e).__name__ != "ContactDynamicsEngine"]
+        track = []
+        steps(200, lambda: track.append([tuple(state(n).vel) + tuple(state(n).angVel) for n in (0, 1)]))
+        tracks.append(track)
+        assert abs(state(0).vel[0] - 3) > 0.1, "the balls did not meet"
+    assert tracks[0] == tracks[1]
+
+
+def test_layers_of_soft_and_rigid_grains() -> None:
+    """Five rigid balls fall on a bed of soft ones on a rigid floor; weights add up on the floor.
+
+    Soft balls meet the floor and the rigid balls by Contact Dynamics: YADE takes the functor of the common base class.
+    """
+    rigid, soft = material(friction=0.6), soft_material()
+    plate = floor(material=rigid)
+    for x, y in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
+        grain((x, y, 1), material=soft)
+    grain((0, 0, 1 + math.sqrt(2) + 0.01), material=rigid)
+    for b in O.bodies:  # the bed stays together without walls
+        if b.id in (1, 2, 3, 4):
+            b.state.blockedDOFs = "xyXYZ"
+    equip(H, tolerance=1e-8, maxIterations=10000)
+    add_soft_law()
+    steps(6000)
+    weight = sum(b.state.mass for b in O.bodies if b.dynamic) * 9.81
+    kinds = {type(i.phys).__name__ for i in O.interactions if i.isReal}
+    assert kinds == {"ViscElPhys", "ContactDynamicsPhys"}
+    assert vec(O.forces.f(plate))[2] == pytest.approx(-weight, rel=1e-4)
+    assert len(active()) == 8
+
+
+def test_cohesive_soft_pair_in_a_scene_of_rigid_grains() -> None:
+    """A ball glued to a fixed one (geometry of another class, ScGeom6D) hangs there; a rigid ball beside it rests."""
+    rigid = material()
+    strong = dict(isCohesive=True, normalCohesion=1e9, shearCohesion=1e9)
+    glue = O.materials[O.materials.append(CohFrictMat(young=1e7, frictionAngle=0.5, density=2600, **strong))]
+    hook = grain((0, 0, 20), material=glue, fixed=True)
+    hung = grain((0, 0, 18), material=glue)
+    floor(material=rigid)
+    ball = grain((5, 0, 1), material=rigid)
+    equip(H)
+    loop = engine("InteractionLoop")
+    # The collision functor with rotations serves every pair of spheres: our law takes its geometry as the base class.
+    others = [f for f in loop.geomDispatcher.functors if "Sphere_Sphere" not in type(f).__name__]
+    loop.geomDispatcher.functors = others + [Ig2_Sphere_Sphere_ScGeom6D()]
+    glued = Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True, setCohesionOnNewContacts=True)
+    loop.physDispatcher.functors = loop.physDispatcher.functors + [glued]
+    loop.lawDispatcher.functors = loop.lawDispatcher.functors + [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]
+    steps(200)
+    pull = O.interactions[hook, hung].phys.normalForce.norm()
+    assert pull > 0 and state(hung).pos[2] > 17.9
+    assert vec(O.forces.f(ball))[2] == pytest.approx(state(ball).mass * 9.81, rel=1e-6)
+    assert [type(i.phys).__name__ for i in contacts()] == ["ContactDynamicsPhys"]
