@@ -64,16 +64,17 @@ def ofClass(name):
     return entry(f"py:class:: {name}", "\n\n".join(parts))
 
 
-def ofFunction(module, function):
-    """A Python function with its signature and docstring."""
-    return entry(f"py:function:: {module}.{function.__name__}{inspect.signature(function)}", inspect.cleandoc(function.__doc__))
+def ofPython(module, member):
+    """A Python function or class with its signature and docstring."""
+    kind = "class" if inspect.isclass(member) else "function"
+    return entry(f"py:{kind}:: {module}.{member.__name__}{inspect.signature(member, eval_str=True)}", inspect.cleandoc(member.__doc__))
 
 
-def publicFunctions(module):
-    """Functions that the module itself defines, in the order of the file."""
-    found = [function for name, function in inspect.getmembers(module, inspect.isfunction)
-             if function.__module__ == module.__name__ and not name.startswith("_")]
-    return sorted(found, key=lambda function: function.__code__.co_firstlineno)
+def publicMembers(module):
+    """Functions and classes that the module itself defines, in the order of the file."""
+    found = [member for name, member in inspect.getmembers(module, lambda member: inspect.isfunction(member) or inspect.isclass(member))
+             if member.__module__ == module.__name__ and not name.startswith("_")]
+    return sorted(found, key=lambda member: inspect.getsourcelines(member)[1])
 
 
 def title(text, line):
@@ -88,11 +89,11 @@ def main(path):
         group = "Engine" if name.endswith("Engine") else "Bounds and geometry of contacts" if name.startswith(("Bo1", "Ig2")) else "Physics and law of a contact"
         groups[group].append(ofClass(name))
     parts = [title("Class reference", "="), "Written by ``scripts/docs`` from the docstrings of the running classes.\n"]
-    parts += [title("Presets", "-"), ofFunction("contactdynamics", contactdynamics.engines)]
+    parts += [title("Presets", "-"), ofPython("contactdynamics", contactdynamics.engines)]
     for heading, entries in groups.items():
         parts += [title(heading, "-"), *entries]
     for heading, module in (("Report", report), ("Picture of the force network", forcenetwork)):
-        parts += [title(heading, "-"), inspect.cleandoc(module.__doc__) + "\n", *[ofFunction(module.__name__, function) for function in publicFunctions(module)]]
+        parts += [title(heading, "-"), inspect.cleandoc(module.__doc__) + "\n", *[ofPython(module.__name__, member) for member in publicMembers(module)]]
     with open(path, "w") as file:
         file.write("\n".join(parts))
     print(f"{len(OWN)} classes written to {path}")

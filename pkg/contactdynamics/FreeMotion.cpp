@@ -32,7 +32,10 @@ FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, con
 	FreeMotion   free;
 	free.velocity        = state.vel;
 	free.angularVelocity = state.angVel;
-	free.moved           = !(plan.mask > 0 && !body.maskCompatible(plan.mask));
+	if (plan.mask > 0 && !body.maskCompatible(plan.mask)) { // whatever its velocity says, it stays where it is
+		free.velocity = free.angularVelocity = Vector3r::Zero();
+		free.moved                           = false;
+	}
 #ifdef YADE_MPI
 	free.moved = free.moved && scene.subdomain == body.subdomain && !body.getIsSubdomain() && !body.getIsFluidDomainBbox();
 #endif

@@ -290,10 +290,7 @@ void GrainOperator::letIdleSleep()
 	for (const GeneralContact& g : generals) sort(g.id, !g.impulse.isZero(0) || !g.increment.isZero(0) || !g.direction.isZero(0), g.W(0, 0));
 	if (5 * idle < awake) return; // not worth the move
 
-	struct Place {
-		std::int32_t where, lane;
-	};
-	std::vector<Place> place(contacts.size(), Place{-1, 0});
+	place.assign(contacts.size(), Place{-1, 0});
 	oldPacks.swap(packs);
 	oldGenerals.swap(generals);
 	for (std::size_t i = 0; i < oldPacks.size(); ++i)
@@ -356,12 +353,13 @@ void GrainOperator::addImpulse(const Contact& c, const Vector3& impulse)
 
 bool GrainOperator::closes(const Contact& c) const { return normalVelocity(c) + c.gapVelocity < -roundOffOf(speedsAt(c)); }
 
-/// Sum of the speeds that the relative velocity is made of.
+/// Sum of the speeds that the relative velocity is made of, as sums of components: a bound, without square roots.
 double GrainOperator::speedsAt(const Contact& c) const
 {
 	const BodyState &b1 = state[c.body1], &b2 = state[c.body2];
-	return velocity(b1).norm() + velocity(b2).norm() + std::abs(c.gapVelocity) + c.imageVelocity.norm() + angularVelocity(b1).norm() * c.arm1.norm() +
-		   angularVelocity(b2).norm() * c.arm2.norm();
+	const auto size = [](const auto& vector) { return vector.cwiseAbs().sum(); };
+	return size(velocity(b1)) + size(velocity(b2)) + size(angularVelocity(b1)) * size(c.arm1) + size(angularVelocity(b2)) * size(c.arm2) +
+		   size(c.imageVelocity) + std::abs(c.gapVelocity);
 }
 
 void GrainOperator::freeVelocities()

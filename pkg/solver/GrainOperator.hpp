@@ -21,6 +21,7 @@ class GrainOperator {
 public:
 	/// Takes the problem over until finish(): free velocities and start impulses, brought inside their cones.
 	void start(GrainProblem& problem, bool accelerated, int threads);
+	static constexpr int firstCheck = 0; ///< a certificate costs six sweeps: wait until the increments promise convergence
 	bool anyAwake() const { return awake > 0; }
 
 	SweepNorms sweep(Extrapolation by);
@@ -48,6 +49,10 @@ private:
 		double approach = 0;
 	};
 
+	struct Place { // of a contact in the old layout
+		std::int32_t where, lane;
+	};
+
 	GrainProblem* problem = nullptr;
 	BallSweep ballSweep = selectBallSweep();
 	bool accelerated = false;
@@ -70,6 +75,7 @@ private:
 	std::vector<Chunk> chunks;
 	std::vector<SweepNorms> chunkNorms;
 	std::vector<Sleeper> sleepers;
+	std::vector<Place> place;
 	std::vector<std::int32_t> selected, colourOf, order;
 
 	bool isBall(const Contact& c) const { return c.ball && c.imageVelocity.isZero(0); }

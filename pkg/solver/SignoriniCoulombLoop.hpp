@@ -16,6 +16,7 @@ struct LoopResult {
 
 /// The Signorini-Coulomb loop of Jean (1999), 5.4, with its acceleration and stopping rule, over any operator:
 ///
+///     int firstCheck                          sweep after which the certificate is evaluated to gauge the increments; 0: not before they promise
 ///     bool anyAwake()                         false when no contact needs a visit
 ///     SweepNorms sweep(Extrapolation)         moves to the extrapolated point, then visits every awake contact once
 ///     bool mend()                             looks after sleeping contacts; true when one of them was woken
@@ -43,7 +44,7 @@ template <class Operator> LoopResult signoriniCoulombLoop(Operator& op, const So
 			return result;
 		}
 		const bool last = result.iterations == options.maxIterations;
-		if (last || increment <= promise * impulse) {
+		if (last || result.iterations == Operator::firstCheck || increment <= promise * impulse) {
 			if (!op.mend() || last) {
 				result.residual = op.certificate();
 				if (!(result.residual > options.tolerance)) return result;

@@ -16,14 +16,6 @@ SignoriniCoulombSolver::~SignoriniCoulombSolver() = default;
 
 namespace {
 
-void requireOptions(const SolverOptions& options)
-{
-	if (!(options.tolerance > 0)) throw std::invalid_argument("SolverOptions::tolerance is " + std::to_string(options.tolerance) + ", must be > 0");
-	if (options.maxIterations < 0)
-		throw std::invalid_argument("SolverOptions::maxIterations is " + std::to_string(options.maxIterations) + ", must be >= 0");
-	if (options.threads < 1) throw std::invalid_argument("SolverOptions::threads is " + std::to_string(options.threads) + ", must be >= 1");
-}
-
 [[noreturn]] void refuse(const GrainProblem& problem, std::size_t i, const std::string& what)
 {
 	const Contact& c = problem.contacts[i];

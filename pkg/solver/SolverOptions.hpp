@@ -16,4 +16,7 @@ struct SolverOptions {
 	int threads = 1; ///< OpenMP threads, >= 1; the result does not depend on it, bit for bit
 };
 
+/// @throws std::invalid_argument  naming the option and its value
+void requireOptions(const SolverOptions& options);
+
 } // namespace contactdynamics

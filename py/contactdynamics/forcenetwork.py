@@ -19,12 +19,18 @@ VIEWS = {"x": (1, 2), "y": (0, 2), "z": (0, 1)}
 
 @dataclass(frozen=True)
 class ForceNetwork:
-    """Spheres and contact forces of one step, as arrays."""
+    """Spheres and contact forces of one step, as arrays.
 
-    centres: np.ndarray  #: (n, 3) centres of the spheres [m]
-    radii: np.ndarray  #: (n,) radii [m]
-    segments: np.ndarray  #: (m, 2, 3) ends of the bars [m]
-    forces: np.ndarray  #: (m,) magnitude of the contact force, normal and tangential together [N]
+    :ivar centres: (n, 3) centres of the spheres [m]
+    :ivar radii: (n,) radii [m]
+    :ivar segments: (m, 2, 3) ends of the bars [m]
+    :ivar forces: (m,) magnitude of the contact force, normal and tangential together [N]
+    """
+
+    centres: np.ndarray
+    radii: np.ndarray
+    segments: np.ndarray
+    forces: np.ndarray
 
 
 def forceNetwork() -> ForceNetwork:

@@ -17,15 +17,24 @@ from yade import O, Sphere, utils
 
 @dataclass(frozen=True)
 class Packing:
-    """State of a packing; lengths are relative to the mean grain radius, forces to the weight of the grains."""
+    """State of a packing; lengths are relative to the mean grain radius, forces to the weight of the grains.
 
-    grains: int  #: number of spheres that are free to move
-    contacts: int  #: interactions with a normal force > 0
-    meanOverlap: float  #: mean overlap of those contacts / mean radius [-], 0 where the bodies touch or are apart
-    maxOverlap: float  #: largest overlap / mean radius [-]
-    coordination: float  #: contacts per grain, rattlers left out, contacts with walls counted [-]
-    rattlers: int  #: grains with fewer than two contacts, as YADE's ``avgNumInteractions(skipFree=True)`` counts them
-    kineticEnergy: float  #: kinetic energy of translation per grain / (mean weight x mean radius) [-]
+    :ivar grains: number of spheres that are free to move
+    :ivar contacts: interactions with a normal force > 0
+    :ivar meanOverlap: mean overlap of those contacts / mean radius [-], 0 where the bodies touch or are apart
+    :ivar maxOverlap: largest overlap / mean radius [-]
+    :ivar coordination: contacts per grain, rattlers left out, contacts with walls counted [-]
+    :ivar rattlers: grains with fewer than two contacts, as YADE's ``avgNumInteractions(skipFree=True)`` counts them
+    :ivar kineticEnergy: kinetic energy of translation per grain / (mean weight x mean radius) [-]
+    """
+
+    grains: int
+    contacts: int
+    meanOverlap: float
+    maxOverlap: float
+    coordination: float
+    rattlers: int
+    kineticEnergy: float
 
 
 def grains() -> list:

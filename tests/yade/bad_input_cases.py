@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Wrong values, one per function: a clear error, then the value is repaired and the scene goes on.
 
-Each function runs in a YADE of its own with two threads, because an exception that leaves a parallel loop, or YADE's
-own `exit(1)` for a missing law, would end the process and with it all other tests.
+They run in another YADE, with two threads, because an exception that leaves a parallel loop, or YADE's own `exit(1)`
+for a missing law, would end the process and with it all other tests.
 """
 
 from __future__ import annotations
 
+import json
 import math
 import re
+import traceback
 from typing import Callable
 
 from yade import Ig2_Sphere_Sphere_L3Geom, O, Vector3
@@ -17,7 +19,7 @@ from contactdynamics import *  # noqa: F403
 from scenes import cd, contact, engine, equip, floor, grain, material, state, steps, vec
 
 NAN, INF = float("nan"), float("inf")
-BALL = 1
+BALL, H = 1, 5e-3
 
 
 def scene(height: float = 1.0) -> None:
@@ -26,7 +28,7 @@ def scene(height: float = 1.0) -> None:
     floor()
     grain((0, 0, height))
     grain((5, 0, 1.5))
-    equip(1e-3)
+    equip(H)
 
 
 def refused(*words: str) -> str:
@@ -44,7 +46,7 @@ def refused(*words: str) -> str:
 
 def goes_on() -> None:
     """After the repair both balls come to rest on the floor and weigh what they weigh."""
-    steps(500)
+    steps(120)
     for number in (BALL, 2):
         assert abs(state(number).pos[2] - 1) < 1e-9, f"#{number} is at {state(number).pos}"
         assert state(number).vel.norm() < 1e-9
@@ -178,7 +180,7 @@ def step_negative() -> None:
         pass
     else:
         refused("dt|time step", "-0?.?0*1")
-        O.dt = 1e-3
+        O.dt = H
     goes_on()
 
 
@@ -191,7 +193,7 @@ def _time_step(value: float, shown: str) -> None:
     steps(2)
     O.dt = value
     refused("dt|time step", shown)
-    O.dt = 1e-3
+    O.dt = H
     goes_on()
 
 
@@ -312,7 +314,7 @@ def no_material_in_the_air() -> None:
     scene(height=1.2)
     good = O.bodies[BALL].material
     O.bodies[BALL].material = None
-    for _ in range(500):
+    for _ in range(120):
         try:
             O.step()
         except (RuntimeError, ValueError) as error:
@@ -329,11 +331,12 @@ def body_erased_between_steps() -> None:
     scene()
     upper = grain((0, 0, 3))
     steps(10)
-    assert abs(state(upper).pos[2] - 3) < 1e-9
+    # The default tolerance of 1e-4 leaves up to that part of g h in the velocities of a column of two, in each step.
+    assert abs(state(upper).pos[2] - 3) < 10 * 1e-4 * 9.81 * H * H
     O.bodies.erase(BALL)
     O.step()
     assert contact(0, BALL) is None and cd().freeVelocities()[BALL] is None
-    steps(1500)
+    steps(300)
     assert abs(state(upper).pos[2] - 1) < 1e-9 and abs(state(2).pos[2] - 1) < 1e-9
 
 
@@ -345,7 +348,7 @@ def body_erased_while_in_contact_and_a_new_one_in_its_place() -> None:
     new = grain((0, 0, 1.5))
     O.step()
     assert contact(0, new) is None or contact(0, new).phys.impulse.norm() == 0
-    steps(1500)
+    steps(300)
     assert abs(state(new).pos[2] - 1) < 1e-9
 
 
@@ -358,7 +361,7 @@ def geometry_that_the_law_does_not_know() -> None:
     others = [f for f in known if "Sphere_Sphere" not in type(f).__name__]
     loop.geomDispatcher.functors = others + [Ig2_Sphere_Sphere_L3Geom()]
     collision_starts = False
-    for _ in range(2000):
+    for _ in range(200):
         try:
             O.step()
         except (RuntimeError, ValueError) as error:
@@ -368,9 +371,9 @@ def geometry_that_the_law_does_not_know() -> None:
     assert collision_starts, "the spheres met without an error"
     loop = engine("InteractionLoop")
     loop.geomDispatcher.functors = known
-    O.interactions.clear()
-    steps(500)
-    assert abs(state(2).pos[2] - 1) < 1e-9 and abs(state(3).pos[2] - 3) < 1e-2
+    steps(120)
+    # Ball on ball on floor, one after the other: e = 0 leaves no motion but the roundings of an unstable balance.
+    assert abs(state(2).pos[2] - 1) < 1e-6 and abs(state(3).pos[2] - 3) < 1e-6
 
 
 def error_is_raised_by_a_run_in_the_background() -> None:
@@ -389,8 +392,21 @@ def error_is_raised_by_a_run_in_the_background() -> None:
     goes_on()
 
 
+def run_cases(protocol: str, *names: str) -> None:
+    """Run the named cases; append one line each to the file `protocol`: name and traceback, empty if all went well."""
+    for name in names:
+        O.reset()
+        try:
+            globals()[name]()
+            result = ""
+        except Exception:
+            result = traceback.format_exc()
+        with open(protocol, "a") as file:
+            file.write(json.dumps([name, result]) + "\n")
+
+
 def cases() -> list[str]:
     """Names of all cases of this module."""
-    helpers = {"scene", "refused", "goes_on", "cases"}
+    helpers = {"scene", "refused", "goes_on", "cases", "run_cases"}
     own = [n for n, f in globals().items() if callable(f) and getattr(f, "__module__", "") == __name__]
     return [n for n in own if not n.startswith("_") and n not in helpers]

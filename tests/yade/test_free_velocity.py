@@ -113,8 +113,8 @@ def test_mask_of_the_integrator() -> None:
 def test_body_outside_the_mask_is_an_obstacle_at_rest() -> None:
     """It does not move whatever its `vel` says, so a ball that lies on it stays at rest."""
     material()
-    grain((0, 0, 0), velocity=(0, 0, 5), mask=1)
-    grain((0, 0, 2), mask=2)
+    grain((0, 0, 0), velocity=(0, 0, 5), mask=4 + 1)
+    grain((0, 0, 2), mask=4 + 2)  # the common bit lets the two collide
     equip(H)
     engine("NewtonIntegrator").mask = 2
     steps(10)
