@@ -32,6 +32,8 @@ public:
 	void finish(SolveReport& report);
 
 private:
+	static constexpr std::size_t contactsPerRun = 512; // contacts that one job of the crew looks at
+
 	struct Chunk { // a run of contacts of one colour, visited by one thread, summed as one term
 		std::size_t firstPack, packs, firstGeneral, generals;
 	};

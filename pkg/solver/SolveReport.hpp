@@ -15,7 +15,7 @@ struct SolveReport {
 	double residual = 0;		 ///< relative natural map at the returned point, over all contacts, see NaturalMap.hpp [-]
 	double maxApproachSpeed = 0; ///< largest max(0, -(U_N + s)) at the returned point [m/s]
 	int activeContacts = 0;		 ///< contacts with a non-zero impulse
-	int ambiguousContacts = 0; ///< 2D blocks only: contacts that violate (33) of Jean (1999), |mu W_TN| < W_NN (Painleve)
+	int ambiguousContacts = 0;	 ///< 2D blocks only: contacts that violate (33) of Jean (1999), |mu W_TN| < W_NN (Painleve)
 };
 
 } // namespace contactdynamics

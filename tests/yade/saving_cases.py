@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from yade import O, Vector3
 
-from scenes import box, contacts, dumbbell, equip, grain, material, state, steps
+from scenes import box, cd, contacts, dumbbell, equip, grain, material, state, steps
 
 FIRST, SECOND = 120, 60
 
@@ -28,6 +28,35 @@ def build() -> None:
         number, _ = dumbbell([place, place + [1.2, 0.3, 0.2]], radius=0.7)
         state(number).vel = Vector3(*generator.uniform(-3, 3, 3))
     equip(1.5e-2, tolerance=1e-4, maxIterations=3000, onNonConvergence="ignore")
+
+
+def crowd() -> None:
+    """2744 spheres fly together: enough contacts at once (over 5000) for the solver to share them out to its threads.
+
+    Every tenth body has three different moments of inertia, so that both kinds of contacts occur.
+    """
+    generator = np.random.default_rng(13)
+    material(friction=0.4)
+    for k in range(14**3):
+        place = 2.02 * (np.array([k % 14, k // 14 % 14, k // 196]) - 6.5)
+        radius, velocity = generator.uniform(0.9, 1), -0.5 * place + generator.uniform(-1, 1, 3)
+        number = grain(place, radius=radius, velocity=velocity)
+        if k % 10 == 0:
+            O.bodies[number].aspherical = True
+            state(number).inertia = Vector3(*(generator.uniform(0.7, 1.3, 3) * state(number).inertia[0]))
+    equip(1.5e-2, gravity=(0, 0, 0), tolerance=1e-4, maxIterations=300, onNonConvergence="ignore")
+
+
+def together(result: str) -> None:
+    """A few steps of the crowd."""
+    crowd()
+    most = 0
+    for _ in range(20):
+        steps(1)
+        most = max(most, cd().activeContacts)
+    assert most > 5000, f"only {most} contacts"
+    with open(result, "w") as file:
+        file.write(numbers())
 
 
 def numbers() -> str:

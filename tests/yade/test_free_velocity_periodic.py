@@ -98,6 +98,26 @@ def test_images_move_with_the_cell() -> None:
         assert cd().maxPenetration <= 1e-12
 
 
+@pytest.mark.parametrize("friction", [0.1, 5.0])
+def test_friction_across_a_sheared_boundary(friction: float) -> None:
+    """The image moves sideways with the cell: closed form of the impact of two balls with that tangential velocity.
+
+    Equal balls meet at 2 m/s: P_N = m; the image slides at 10 velGrad_xz = 3 m/s, W_T = 7/2 W_N = 7/m.
+    """
+    O.periodic = True
+    O.cell.setBox(10, 10, 10)
+    O.cell.homoDeform = 0
+    material(friction)
+    low, high = grain((5, 5, 1), velocity=(0, 0, -1)), grain((5, 5, 9), velocity=(0, 0, 1))
+    equip(H, gravity=(0, 0, 0), tolerance=1e-12)
+    O.cell.velGrad = Matrix3(0, 0, 0.3, 0, 0, 0, 0, 0, 0)
+    O.step()
+    drag = min(friction, 3 / 7)
+    assert vec(state(low).vel) == pytest.approx([-drag, 0, 0], abs=1e-11)
+    assert vec(state(high).vel) == pytest.approx([drag, 0, 0], abs=1e-11)
+    assert cd().converged
+
+
 @pytest.mark.parametrize("homo_deform", [0, 1, 2])
 def test_dense_cell_under_shear(homo_deform: int) -> None:
     """Contacts across all faces of a sheared cell: the realised velocity is the predicted one, step by step."""

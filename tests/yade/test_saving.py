@@ -28,6 +28,15 @@ def test_same_bits_again_and_with_two_threads(one_run, threads: int) -> None:
     assert (folder / "again").read_text() == expected
 
 
+def test_same_bits_of_many_contacts_with_any_number_of_threads(tmp_path) -> None:
+    """Large enough for the solver to use its threads; three are more than some machines have cores."""
+    for threads in (1, 2, 3):
+        isolated("yade", "saving_cases", "together", tmp_path / str(threads), threads=threads)
+    expected = (tmp_path / "1").read_text()
+    assert (tmp_path / "2").read_text() == expected
+    assert (tmp_path / "3").read_text() == expected
+
+
 @pytest.mark.parametrize("ending", [".xml", ".xml.bz2", ".yade", ".yade.gz"])
 def test_same_bits_across_a_file_and_a_new_process(one_run, ending: str) -> None:
     folder, expected = one_run

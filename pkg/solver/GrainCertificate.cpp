@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From the impulses of the sweeps to a feasible point, its velocities and its residual.
+#include "GrainOperator.hpp"
+
+#include "BodyView.hpp"
+#include "CoulombCone.hpp"
+
+#include <Eigen/Geometry>
+
+namespace contactdynamics {
+
+void GrainOperator::collectImpulses()
+{
+	const auto& contacts = problem->contacts;
+	for (const BallPack& p : packs)
+		for (int k = 0; k < 4; ++k) {
+			if (p.id[k] < 0) continue;
+			const Contact& c = contacts[p.id[k]];
+			impulses[p.id[k]] = insideCone({p.impulse[0][k], p.impulse[1][k], p.impulse[2][k]}, c.normal, c.friction);
+		}
+	for (const GeneralContact& g : generals) impulses[g.id] = insideCone(g.frame.transpose() * g.impulse, contacts[g.id].normal, g.friction);
+}
+
+void GrainOperator::addImpulse(const Contact& c, const Vector3& impulse)
+{
+	const auto& bodies = problem->bodies;
+	if (movable[c.body1]) {
+		velocity(state[c.body1]) -= bodies[c.body1].inverseMass.cwiseProduct(impulse);
+		angularVelocity(state[c.body1]) -= bodies[c.body1].inverseInertia * c.arm1.cross(impulse);
+	}
+	if (movable[c.body2]) {
+		velocity(state[c.body2]) += bodies[c.body2].inverseMass.cwiseProduct(impulse);
+		angularVelocity(state[c.body2]) += bodies[c.body2].inverseInertia * c.arm2.cross(impulse);
+	}
+}
+
+/// Sum of the speeds that the relative velocity is made of, as sums of components: a bound, without square roots.
+double GrainOperator::speedsAt(const Contact& c) const
+{
+	const BodyState &b1 = state[c.body1], &b2 = state[c.body2];
+	const auto size = [](const auto& vector) { return vector.cwiseAbs().sum(); };
+	return size(velocity(b1)) + size(velocity(b2)) + size(angularVelocity(b1)) * size(c.arm1) + size(angularVelocity(b2)) * size(c.arm2) +
+		   size(c.imageVelocity) + std::abs(c.gapVelocity);
+}
+
+void GrainOperator::freeVelocities()
+{
+	const auto& bodies = problem->bodies;
+	for (std::size_t i = 0; i < bodies.size(); ++i) {
+		velocity(state[i]) = bodies[i].velocity;
+		angularVelocity(state[i]) = bodies[i].angularVelocity;
+	}
+}
+
+/// Velocities = free velocities + M^-1 H r: no drift of the sweeps is left in them.
+void GrainOperator::rebuildVelocities()
+{
+	freeVelocities();
+	for (std::size_t i = 0; i < impulses.size(); ++i)
+		if (!impulses[i].isZero(0)) addImpulse(problem->contacts[i], impulses[i]);
+}
+
+GrainOperator::Sums GrainOperator::certify(std::size_t first, std::size_t last)
+{
+	Sums result;
+	for (std::size_t i = first; i < last; ++i) {
+		Contact& c = problem->contacts[i];
+		const BodyState &b1 = state[c.body1], &b2 = state[c.body2];
+		const Vector3 U = velocity(b2) + c.imageVelocity - velocity(b1) + angularVelocity(b2).cross(c.arm2) - angularVelocity(b1).cross(c.arm1);
+		c.relativeVelocity = U;
+		const double un = U.dot(c.normal) + c.gapVelocity, rn = impulses[i].dot(c.normal);
+		result.approach = std::max(result.approach, -un);
+		if (un >= 0 && rn <= 0) continue; // open and separating: F = 0
+		const double speeds = speedsAt(c);
+		if (c.ball) {
+			const double Wn = b1.inverseMass + b2.inverseMass;
+			if (!(Wn > 0)) continue;
+			const double Wt = Wn + c.arm1.squaredNorm() * b1.inverseInertia + c.arm2.squaredNorm() * b2.inverseInertia;
+			const Vector3 rt = impulses[i] - rn * c.normal, ut = U - U.dot(c.normal) * c.normal;
+			const auto F = naturalMap<Vector3>({rn, rt}, {un, ut}, c.friction, Wn, speeds);
+			result.residual.add(Wn * F.n * F.n + Wt * F.t.squaredNorm(), Wn * rn * rn + Wt * rt.squaredNorm());
+		} else {
+			const Matrix3 frame = contactFrame(c.normal), W = localDelassus(problem->bodies[c.body1], problem->bodies[c.body2], c, frame);
+			if (!(W(0, 0) > 0)) continue;
+			const Vector3 r = frame * impulses[i], u = frame * U;
+			const auto F = naturalMap<Eigen::Vector2d>({rn, r.tail<2>()}, {un, u.tail<2>()}, c.friction, W(0, 0), speeds);
+			const Vector3 f(F.n, F.t[0], F.t[1]);
+			result.residual.add(f.dot(W * f), r.dot(W * r));
+		}
+	}
+	return result;
+}
+
+double GrainOperator::certificate()
+{
+	collectImpulses();
+	rebuildVelocities();
+	const std::size_t count = problem->contacts.size();
+	sums.assign((count + contactsPerRun - 1) / contactsPerRun, Sums{});
+	crew->run(sums.size(), [&](std::size_t k) { sums[k] = certify(k * contactsPerRun, std::min(count, (k + 1) * contactsPerRun)); });
+	Sums total;
+	for (const Sums& one : sums) {
+		total.residual.add(one.residual);
+		total.approach = std::max(total.approach, one.approach);
+	}
+	maxApproachSpeed = total.approach;
+	return total.residual.value();
+}
+
+void GrainOperator::finish(SolveReport& report)
+{
+	crew.reset();
+	auto& bodies = problem->bodies;
+	for (std::size_t i = 0; i < bodies.size(); ++i) {
+		bodies[i].velocity = velocity(state[i]);
+		bodies[i].angularVelocity = angularVelocity(state[i]);
+	}
+	report.maxApproachSpeed = maxApproachSpeed;
+	report.activeContacts = 0;
+	for (std::size_t i = 0; i < impulses.size(); ++i) {
+		Contact& c = problem->contacts[i];
+		c.impulse = impulses[i];
+		const double rn = c.impulse.dot(c.normal);
+		if (!(rn > 0)) {
+			c.status = ContactStatus::none;
+			continue;
+		}
+		++report.activeContacts;
+		// The projection on the cone leaves round-off only: a friction below its limit by more than that sticks.
+		c.status = (c.impulse - rn * c.normal).norm() < (1 - 1e-9) * c.friction * rn ? ContactStatus::sticking : ContactStatus::sliding;
+	}
+}
+
+} // namespace contactdynamics

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which contacts are awake, and where they are.
+#include "GrainOperator.hpp"
+
+namespace contactdynamics {
+
+namespace {
+
+constexpr std::size_t packsPerChunk = 32, generalsPerChunk = 32;
+
+} // namespace
+
+void GrainOperator::putSleeper(std::int32_t id)
+{
+	const Contact& c = problem->contacts[id];
+	impulses[id].setZero();
+	sleepers.push_back({c.normal, c.ball ? c.gapVelocity + c.imageVelocity.dot(c.normal) : c.gapVelocity, c.body1, c.body2, id, !c.ball});
+}
+
+void GrainOperator::putBall(BallPack& pack, int lane, std::int32_t id) const
+{
+	const Contact& c = problem->contacts[id];
+	const Body &b1 = problem->bodies[c.body1], &b2 = problem->bodies[c.body2];
+	const double a1 = c.arm1.dot(c.normal), a2 = c.arm2.dot(c.normal);
+	const double Wn = b1.inverseMass[0] + b2.inverseMass[0], Wt = Wn + a1 * a1 * b1.inverseInertia(0, 0) + a2 * a2 * b2.inverseInertia(0, 0);
+	pack.body1[lane] = indexOf(c.body1);
+	pack.body2[lane] = indexOf(c.body2);
+	pack.id[lane] = id;
+	for (int k = 0; k < 3; ++k) {
+		pack.normal[k][lane] = c.normal[k];
+		pack.impulse[k][lane] = impulses[id][k];
+	}
+	pack.gapVelocity[lane] = c.gapVelocity;
+	pack.friction[lane] = c.friction;
+	pack.arm1[lane] = a1;
+	pack.arm2[lane] = a2;
+	pack.inverseWn[lane] = Wn > 0 ? 1 / Wn : 0;
+	pack.inverseWt[lane] = Wt > 0 ? 1 / Wt : 0;
+}
+
+void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id) const
+{
+	const Contact& c = problem->contacts[id];
+	g.id = id;
+	g.body1 = indexOf(c.body1);
+	g.body2 = indexOf(c.body2);
+	g.frame = contactFrame(c.normal);
+	g.arm1 = c.arm1;
+	g.arm2 = c.arm2;
+	g.offset = g.frame * c.imageVelocity;
+	g.offset[0] += c.gapVelocity;
+	g.W = localDelassus(problem->bodies[c.body1], problem->bodies[c.body2], c, g.frame);
+	g.friction = c.friction;
+	g.local = OneContact(g.W);
+	g.impulse = g.frame * impulses[id];
+	g.increment.setZero();
+	g.direction.setZero();
+}
+
+/// Appends contacts as new colours: counting sort by colour, balls in packs of four, general contacts one by one.
+void GrainOperator::layOut(const std::vector<std::int32_t>& ids)
+{
+	if (ids.empty()) return;
+	const auto& contacts = problem->contacts;
+	colouring.reset(problem->bodies.size());
+	constexpr int kinds = 2 * (Colouring::overflow + 1);
+	std::size_t count[kinds + 1] = {};
+	colourOf.resize(ids.size());
+	for (std::size_t i = 0; i < ids.size(); ++i) {
+		const Contact& c = contacts[ids[i]];
+		colourOf[i] = 2 * colouring.assign(indexOf(c.body1), indexOf(c.body2)) + (isBall(c) ? 0 : 1);
+		++count[colourOf[i] + 1];
+	}
+	for (int k = 0; k < kinds; ++k) count[k + 1] += count[k];
+	order.resize(ids.size());
+	{
+		std::size_t next[kinds];
+		std::copy(count, count + kinds, next);
+		for (std::size_t i = 0; i < ids.size(); ++i) order[next[colourOf[i]]++] = ids[i];
+	}
+	BallPack empty{};
+	for (int lane = 0; lane < 4; ++lane) {
+		empty.id[lane] = -1;
+		empty.body1[lane] = empty.body2[lane] = ~std::int32_t(problem->bodies.size());
+	}
+	for (int colour = 0; colour <= Colouring::overflow; ++colour) {
+		const std::size_t balls = count[2 * colour], first = count[2 * colour + 1], last = count[2 * colour + 2];
+		if (balls == last) continue;
+		const int lanes = colour == Colouring::overflow ? 1 : 4; // contacts of the overflow colour do share bodies
+		const std::size_t firstPack = packs.size(), firstGeneral = generals.size(), firstChunk = chunks.size();
+		for (std::size_t i = balls; i < first; ++i) {
+			const int lane = int((i - balls) % lanes);
+			if (lane == 0) packs.push_back(empty);
+			putBall(packs.back(), lane, order[i]);
+		}
+		generals.resize(firstGeneral + last - first);
+		for (std::size_t i = first; i < last; ++i) putGeneral(generals[firstGeneral + i - first], order[i]);
+		const std::size_t packCount = packs.size() - firstPack, generalCount = generals.size() - firstGeneral;
+		if (colour == Colouring::overflow)
+			chunks.push_back({firstPack, packCount, firstGeneral, generalCount});
+		else {
+			for (std::size_t k = 0; k < packCount; k += packsPerChunk)
+				chunks.push_back({firstPack + k, std::min(packsPerChunk, packCount - k), 0, 0});
+			for (std::size_t k = 0; k < generalCount; k += generalsPerChunk)
+				chunks.push_back({0, 0, firstGeneral + k, std::min(generalsPerChunk, generalCount - k)});
+		}
+		groups.push_back({firstChunk, chunks.size()});
+	}
+	awake += ids.size();
+}
+
+/// Lays the awake contacts out anew, without those that carry nothing and separate by more than a tenth of the typical change of velocity.
+void GrainOperator::letIdleSleep()
+{
+	const auto& contacts = problem->contacts;
+	if (contacts.size() <= 64) return;
+	const double energy = lastNorms.impulse2 / double(awake); // typical r^T W r, so that W_nn times it is a velocity squared
+	selected.clear();
+	std::size_t idle = 0;
+	const auto sort = [&](std::int32_t id, bool carries, double Wnn) {
+		const double u = normalVelocity(contacts[id]) + contacts[id].gapVelocity;
+		if (carries || u <= 0.1 * std::sqrt(energy * Wnn))
+			selected.push_back(id);
+		else
+			++idle;
+	};
+	for (const BallPack& p : packs)
+		for (int k = 0; k < 4; ++k) {
+			if (p.id[k] < 0) continue;
+			bool carries = false;
+			for (int j = 0; j < 3; ++j) carries = carries || p.impulse[j][k] != 0 || p.increment[j][k] != 0 || p.direction[j][k] != 0;
+			sort(p.id[k], carries, state[contacts[p.id[k]].body1].inverseMass + state[contacts[p.id[k]].body2].inverseMass);
+		}
+	for (const GeneralContact& g : generals) sort(g.id, !g.impulse.isZero(0) || !g.increment.isZero(0) || !g.direction.isZero(0), g.W(0, 0));
+	if (5 * idle < awake) return; // not worth the move
+
+	place.assign(contacts.size(), Place{-1, 0});
+	oldPacks.swap(packs);
+	oldGenerals.swap(generals);
+	for (std::size_t i = 0; i < oldPacks.size(); ++i)
+		for (int k = 0; k < 4; ++k)
+			if (oldPacks[i].id[k] >= 0) place[oldPacks[i].id[k]] = {std::int32_t(i), k};
+	for (std::size_t i = 0; i < oldGenerals.size(); ++i) place[oldGenerals[i].id] = {std::int32_t(i), 0};
+	std::sort(selected.begin(), selected.end());
+	std::size_t next = 0;
+	for (std::size_t id = 0; id < contacts.size(); ++id) {
+		if (place[id].where < 0) continue;
+		if (next < selected.size() && std::size_t(selected[next]) == id)
+			++next;
+		else
+			putSleeper(std::int32_t(id));
+	}
+	packs.clear();
+	generals.clear();
+	groups.clear();
+	chunks.clear();
+	awake = 0;
+	layOut(selected);
+	for (BallPack& p : packs)
+		for (int k = 0; k < 4; ++k) {
+			if (p.id[k] < 0) continue;
+			const Place from = place[p.id[k]];
+			const BallPack& old = oldPacks[from.where];
+			for (int j = 0; j < 3; ++j) {
+				p.impulse[j][k] = old.impulse[j][from.lane];
+				p.increment[j][k] = old.increment[j][from.lane];
+				p.direction[j][k] = old.direction[j][from.lane];
+			}
+		}
+	for (GeneralContact& g : generals) g = oldGenerals[place[g.id].where];
+}
+
+} // namespace contactdynamics
