@@ -179,6 +179,16 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 	};
 	contact.arm1 = fromMassCentre(view1, link.arm1);
 	contact.arm2 = fromMassCentre(view2, link.arm2);
+	// The velocity of a fixed body at the contact point is known. Given as a shift it leaves no arm across the normal, so that a ball
+	// on a turning box keeps the closed form.
+	if (view1.fixed) {
+		contact.imageVelocity -= free[view1.index].angularVelocity.cross(contact.arm1);
+		contact.arm1 = Vector3r::Zero();
+	}
+	if (view2.fixed) {
+		contact.imageVelocity += free[view2.index].angularVelocity.cross(contact.arm2);
+		contact.arm2 = Vector3r::Zero();
+	}
 
 	link.swapped = view1.radius > 0 && view2.radius > 0 && interaction.getId1() > interaction.getId2();
 	if (link.swapped) {

@@ -39,8 +39,7 @@ void readLocal(const std::string& path, Problem& problem)
 		// R l = -V^T r - s,  u = W r + V l + q
 		const Sparse V = sparse(*file->V);
 		try {
-			const Reduced part =
-					eliminate(sparse(*file->R), -Sparse(V.transpose()), -vector(file->s, V.cols()), Sparse(V.transpose()), reduced.q);
+			const Reduced part = eliminate(sparse(*file->R), -Sparse(V.transpose()), -vector(file->s, V.cols()), Sparse(V.transpose()), reduced.q);
 			reduced = {Sparse(reduced.W + part.W), part.q};
 		} catch (const std::domain_error& singular) {
 			throw FileError(path + ": dataset /fclib_local/R " + singular.what() + ", so the equality constraints cannot be eliminated");
