@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "FreeMotion.hpp"
+#include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
 #include <pkg/solver/SignoriniCoulombSolver.hpp>
 #include <string>
@@ -35,6 +36,7 @@ struct ContactDynamicsStep {
 	std::vector<Twist>  end() const; // velocities at the end of the step by solver index
 	boost::python::list velocitiesById(const std::vector<Twist>& twists) const;
 	boost::python::list angularMomentaById() const;
+	boost::python::dict asDictionary() const; // see ContactDynamicsEngine.lastProblem
 
 private:
 	/// What the contacts need of a body, looked up once a step instead of once a contact.
@@ -68,6 +70,7 @@ private:
 	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
 	static void leaveOut(Link& link);
 
+	bool                                    solved = false; // problem holds a solution
 	Real                                    h = 0;
 	Matrix3r                                velGrad; // that the integrator will apply, for the velocity of periodic images
 	std::vector<BodyView>                   views;   // by body id

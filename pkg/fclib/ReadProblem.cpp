@@ -84,10 +84,15 @@ Problem readProblem(const std::string& path)
 		problem.form = requireProblem(file);
 		const std::string title = problem.form == Form::local ? "/fclib_local/info/title" : "/fclib_global/info/title";
 		if (file.has(title)) problem.title = file.text(title);
-		if (requireSolution(file, problem.form)) problem.stored = file.reals("/solution/r");
 	}
 	problem.form == Form::local ? readLocal(path, problem) : readGlobal(path, problem);
 	return problem;
+}
+
+std::vector<double> readSolution(const std::string& path)
+{
+	const Hdf5File file(path);
+	return requireSolution(file, requireProblem(file)) ? file.reals("/solution/r") : std::vector<double>();
 }
 
 } // namespace contactdynamics::fclib

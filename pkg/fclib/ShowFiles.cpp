@@ -27,14 +27,17 @@ void show(const std::string& path, const Problem& problem)
 	std::printf("  W             %zu blocks, %.1f per contact; largest entry %g, asymmetry %.1e of it\n", local.column.size(),
 				double(local.column.size()) / double(local.contacts()), size,
 				size > 0 && difference.nonZeros() ? difference.coeffs().cwiseAbs().maxCoeff() / size : 0);
-	if (problem.stored.empty()) {
+}
+
+void showSolution(BlockProblem problem, const std::vector<double>& impulses)
+{
+	if (impulses.empty()) {
 		std::printf("  solution      none\n");
 		return;
 	}
-	BlockProblem solution = local;
-	solution.impulse = problem.stored;
-	std::printf("  solution      error %.3e as Siconos defines it, relative natural map %.3e\n", residualOf(solution, Measure::siconos),
-				residualOf(solution, Measure::naturalMap));
+	problem.impulse = impulses;
+	std::printf("  solution      error %.3e as Siconos defines it, relative natural map %.3e\n", residualOf(problem, Measure::siconos),
+				residualOf(problem, Measure::naturalMap));
 }
 
 } // namespace
@@ -44,7 +47,9 @@ bool showFiles(const Arguments& arguments)
 	bool allWell = true;
 	for (const std::string& path : arguments.files) {
 		try {
-			show(path, readProblem(path));
+			const Problem problem = readProblem(path);
+			show(path, problem);
+			showSolution(problem.local, readSolution(path));
 		} catch (const std::exception& error) {
 			std::fprintf(stderr, "error: %s\n", error.what());
 			allWell = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "SolveFiles.hpp"
 
+#include "NoSolution.hpp"
 #include "Problem.hpp"
 
 #include <chrono>
@@ -22,11 +23,13 @@ struct Result {
 	SolveReport report;
 	double seconds;
 	double error;
+	bool unbounded; ///< see NoSolution.hpp
 };
 
-const char* nameOf(SolveStatus status)
+const char* verdict(const Result& result)
 {
-	switch (status) {
+	if (result.unbounded) return "no solution: impulses grow without bound";
+	switch (result.report.status) {
 	case SolveStatus::converged:
 		return "converged";
 	case SolveStatus::maxIterations:
@@ -41,7 +44,7 @@ const char* nameOf(SolveStatus status)
 /// Each starts from zero, so that all give the same bits.
 Result solved(Problem& problem, const SolverOptions& options)
 {
-	Result result{problem.name, problem.local.dimension, problem.local.contacts(), {}, std::numeric_limits<double>::infinity(), 0};
+	Result result{problem.name, problem.local.dimension, problem.local.contacts(), {}, std::numeric_limits<double>::infinity(), 0, false};
 	double total = 0;
 	for (int run = 0; run < 5 && total < 5e-3; ++run) {
 		std::fill(problem.local.impulse.begin(), problem.local.impulse.end(), 0);
@@ -53,10 +56,14 @@ Result solved(Problem& problem, const SolverOptions& options)
 	}
 	// Not the solver's own word, but evaluated anew at the point it returned.
 	result.error = residualOf(problem.local, Measure::siconos);
+	result.unbounded = result.report.status == SolveStatus::converged && growsWithoutBound(problem.local, result.report, options);
 	return result;
 }
 
-bool converged(const Result& result, double tolerance) { return result.report.status == SolveStatus::converged && result.error <= tolerance; }
+bool converged(const Result& result, double tolerance)
+{
+	return result.report.status == SolveStatus::converged && result.error <= tolerance && !result.unbounded;
+}
 
 std::string quoted(const std::string& text)
 {
@@ -107,7 +114,7 @@ bool solveFiles(const Arguments& arguments)
 			Problem problem = readProblem(path);
 			const Result result = solved(problem, arguments.options);
 			std::printf("%-*s %3d %8zu %10d %10.3e %10.3e  %s\n", width, result.name.c_str(), result.dimension, result.contacts,
-						result.report.iterations, result.seconds, result.error, nameOf(result.report.status));
+						result.report.iterations, result.seconds, result.error, verdict(result));
 			std::fflush(stdout);
 			results.push_back(result);
 			if (!arguments.folder.empty()) {
