@@ -65,6 +65,7 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 {
 	h                = plan.h;
 	velGrad          = plan.velGrad;
+	velGradChange    = plan.periodic && plan.homoDeform ? plan.velGradChange : Matrix3r(Matrix3r::Zero());
 	const long count = static_cast<long>(scene.bodies->size());
 	views.assign(count, BodyView());
 	idOfIndex.clear();
