@@ -5,68 +5,93 @@
 
 namespace yade {
 namespace {
-/// Largest part of an overlap taken away in a step, in radii. The gaps that the repair may open elsewhere are of that size, so a grain that falls
-/// into one stays below a hundredth of the speed that gravity gives over a diameter: sqrt(2 g r/10000) < sqrt(2 g 2r)/100.
-constexpr Real largestShare = 1e-4;
-/// Largest displacement of a body in a step, in radii of the smallest sphere: a fifth of the least proximity margin of a body, so that no contact
-/// comes unseen.
-constexpr Real largestWay = 1e-2;
-/// The repair goes on in the next step, so a coarse solution is good enough; its error shows as overlap, never as energy.
-constexpr Real coarse = 1e-2;
-constexpr int fewSweeps = 30;
-} // namespace
+	/// The deepest overlap shrinks by this in a step, in radii, and all others in proportion ...
+	constexpr Real gentleStep = 1e-4;
+	/// ... but at least by this share, which makes a hundredth of any overlap in 770 steps.
+	constexpr Real leastShare = 6e-3;
+	/// Largest displacement of a body in a step, in radii of the smallest sphere: a fifth of the least proximity margin of a body, so that no contact comes unseen.
+	constexpr Real largestWay = 1e-2;
+	/// How far the pull c alone would move two bodies, in units of the largest displacement that is asked for. Overlaps accumulate over a stack, so it has to be many.
+	constexpr Real pull = 50;
+	/// Relative to the pull. What is left shows as overlap or gap, never as energy, and the repair goes on in the next step.
+	constexpr Real tolerance = 1e-5;
+	constexpr int sweeps	 = 500;
 
-bool PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, const std::vector<Overlap>& overlaps, Real h, Real rate, Real allowed,
-							  int threads)
+	Real normalMobility(const contactdynamics::GrainProblem& problem, const contactdynamics::Contact& contact)
+	{
+		return contact.normal.dot((problem.bodies[contact.body1].inverseMass + problem.bodies[contact.body2].inverseMass).cwiseProduct(contact.normal));
+	}
+}
+
+/// Whether any overlap is larger than allowed.
+bool PenetrationRepair::measure(const contactdynamics::GrainProblem& solved, const std::vector<Overlap>& overlaps, Real h, Real allowed)
 {
-	const std::size_t count = solved.contacts.size();
-	gapAtEnd.resize(count);
-	remaining = largest = 0;
-	Real smallest = std::numeric_limits<Real>::infinity();
-	bool needed = false;
-	for (std::size_t i = 0; i < count; i++) {
+	gapAtEnd.resize(overlaps.size());
+	remaining = largest = deepest = 0;
+	smallestRadius = std::numeric_limits<Real>::infinity();
+	for (std::size_t i = 0; i < overlaps.size(); i++) {
 		const contactdynamics::Contact& contact = solved.contacts[i];
 		gapAtEnd[i] = overlaps[i].gap + h * contact.normal.dot(contact.relativeVelocity);
+		if (overlaps[i].radius <= 0) continue;
 		remaining = std::max(remaining, -gapAtEnd[i]);
-		if (overlaps[i].radius > 0) smallest = std::min(smallest, overlaps[i].radius);
-		needed = needed || (overlaps[i].radius > 0 && gapAtEnd[i] < -allowed * overlaps[i].radius);
+		deepest = std::max(deepest, -gapAtEnd[i] / overlaps[i].radius);
+		smallestRadius = std::min(smallestRadius, overlaps[i].radius);
 	}
-	if (!needed) return false;
+	return deepest > allowed;
+}
 
+bool PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, const std::vector<Overlap>& overlaps, Real h, Real rate, Real allowed, int threads)
+{
+	if (!measure(solved, overlaps, h, allowed) || rate == 0) return false;
+	const Real share = std::min(rate, std::max(leastShare, gentleStep / deepest));
 	const auto isotropic = [](const contactdynamics::Body& body) { return body.inverseMass == Vector3r::Constant(body.inverseMass[0]); };
 	problem.bodies.resize(solved.bodies.size());
 	for (std::size_t i = 0; i < solved.bodies.size(); i++)
 		problem.bodies[i] = {Vector3r::Zero(), Vector3r::Zero(), solved.bodies[i].inverseMass, Matrix3r::Zero()};
 	problem.contacts.clear();
-	for (std::size_t i = 0; i < count; i++) {
+	for (std::size_t i = 0; i < overlaps.size(); i++) {
 		const contactdynamics::Contact& from = solved.contacts[i];
 		const Real room = gapAtEnd[i] + allowed * overlaps[i].radius;
-		if (overlaps[i].radius <= 0 || room > 2 * largestWay * smallest) continue;
+		if (overlaps[i].radius <= 0 || room > 2 * largestWay * smallestRadius) continue;
 		contactdynamics::Contact contact;
 		contact.body1 = from.body1;
 		contact.body2 = from.body2;
 		contact.normal = from.normal;
 		contact.ball = isotropic(solved.bodies[from.body1]) && isotropic(solved.bodies[from.body2]); // without rotation, arms do not matter
-		contact.gapVelocity = room < 0 ? std::max(rate * room, -largestShare * overlaps[i].radius) : room;
+		contact.gapVelocity = room < 0 ? share * room : room;
+		if (from.impulse != Vector3r::Zero() && normalMobility(problem, contact) > 0) {
+			contact.gapVelocity = std::min(contact.gapVelocity, Real(0)); // closed contacts stay where they are
+			letPull(contact, pull * share * deepest * overlaps[i].radius);
+		}
 		gapAtEnd[problem.contacts.size()] = gapAtEnd[i]; // from here on parallel to problem.contacts
 		problem.contacts.push_back(contact);
 	}
 
 	contactdynamics::SolverOptions options;
-	options.tolerance = coarse;
-	options.maxIterations = fewSweeps;
+	options.tolerance = tolerance;
+	options.maxIterations = sweeps;
 	options.threads = threads;
 	if (solver.solve(problem, options).status == contactdynamics::SolveStatus::notFinite) return false;
-	limit(largestWay * smallest);
+	limit(largestWay * smallestRadius);
 	return largest > 0;
+}
+
+void PenetrationRepair::letPull(contactdynamics::Contact& contact, Real displacement)
+{
+	contactdynamics::Body &body1 = problem.bodies[contact.body1], &body2 = problem.bodies[contact.body2];
+	contact.impulse = displacement / normalMobility(problem, contact) * contact.normal;
+	body1.velocity += body1.inverseMass.cwiseProduct(contact.impulse);
+	body2.velocity -= body2.inverseMass.cwiseProduct(contact.impulse);
 }
 
 /// Scaling all displacements alike keeps them admissible: the way of no contact grows.
 void PenetrationRepair::limit(Real allowedDisplacement)
 {
-	for (const auto& body : problem.bodies) largest = std::max(largest, body.velocity.norm());
+	for (const auto& body : problem.bodies)
+		largest = std::max(largest, body.velocity.norm());
 	const Real scale = largest > allowedDisplacement ? allowedDisplacement / largest : 1;
-	for (auto& body : problem.bodies) body.velocity *= scale;
+	for (auto& body : problem.bodies)
+		body.velocity *= scale;
 	largest *= scale;
 	remaining = 0;
 	for (std::size_t i = 0; i < problem.contacts.size(); i++)
