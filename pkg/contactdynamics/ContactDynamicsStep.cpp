@@ -65,7 +65,7 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 {
 	h                = plan.h;
 	velGrad          = plan.velGrad;
-	velGradChange    = plan.periodic && plan.homoDeform ? plan.velGradChange : Matrix3r(Matrix3r::Zero());
+	displacementAsVelocity = plan.velocityOfDisplacement();
 	const long count = static_cast<long>(scene.bodies->size());
 	views.assign(count, BodyView());
 	idOfIndex.clear();

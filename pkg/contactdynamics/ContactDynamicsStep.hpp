@@ -78,8 +78,8 @@ private:
 
 	Real                                    h = 0;
 	Matrix3r                                velGrad; // that the integrator will apply, for the velocity of periodic images
-	Matrix3r                                velGradChange; // that the integrator will add to the velocities, times the position; 0 if it does not
-	std::vector<PenetrationRepair::Overlap> overlaps;      // parallel to links
+	Matrix3r                                displacementAsVelocity; // see IntegratorPlan::velocityOfDisplacement [1/s]
+	std::vector<PenetrationRepair::Overlap> overlaps;               // parallel to links
 	std::vector<BodyView>                   views;   // by body id
 	std::vector<int>                        idOfIndex;
 	std::vector<FreeMotion>                 motions;                 // by solver index

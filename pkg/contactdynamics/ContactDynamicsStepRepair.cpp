@@ -18,7 +18,7 @@ Real ContactDynamicsStep::radiusOf(const Link& link) const
 void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowed)
 {
 	overlaps.clear();
-	for (const Link& link : links) overlaps.push_back({link.gap, rate > 0 ? radiusOf(link) : 0});
+	for (const Link& link : links) overlaps.push_back({link.gap, radiusOf(link)});
 	if (!repair.solve(problem, overlaps, h, rate, allowed, omp_get_max_threads())) return;
 
 	for (std::size_t index = 0; index < idOfIndex.size(); index++) {
@@ -26,8 +26,8 @@ void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowe
 		if (displacement == Vector3r::Zero()) continue;
 		const Body& body = *(*scene.bodies)[idOfIndex[index]];
 		body.state->pos += displacement;
-		// In a periodic cell the integrator is about to add velGradChange times the position: the velocity must not see that this is another one now.
-		body.state->vel -= velGradChange * displacement;
+		// A changing periodic cell gives velocity by position: the velocity at the end of the step must not see that this is another one now.
+		body.state->vel -= displacementAsVelocity * displacement;
 		// Members at once, too: the integrator takes the torque of their contact forces about the position of the clump.
 		if (!body.isClump()) continue;
 		for (const auto& member : static_cast<const Clump&>(*body.shape).members) (*scene.bodies)[member.first]->state->pos += displacement;
