@@ -2,6 +2,7 @@
 #pragma once
 #include "FreeMotion.hpp"
 #include "PenetrationRepair.hpp"
+#include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
 #include <pkg/solver/SignoriniCoulombSolver.hpp>
 #include <string>
@@ -42,6 +43,7 @@ struct ContactDynamicsStep {
 	std::vector<Twist>  end() const; // velocities at the end of the step by solver index
 	boost::python::list velocitiesById(const std::vector<Twist>& twists) const;
 	boost::python::list angularMomentaById() const;
+	boost::python::dict asDictionary() const; // see ContactDynamicsEngine.lastProblem
 
 private:
 	/// What the contacts need of a body, looked up once a step instead of once a contact.
@@ -76,6 +78,7 @@ private:
 	static void leaveOut(Link& link);
 	Real radiusOf(const Link& link) const;
 
+	bool                                    solved = false; // problem holds a solution
 	Real                                    h = 0;
 	Matrix3r                                velGrad; // that the integrator will apply, for the velocity of periodic images
 	Matrix3r                                displacementAsVelocity; // see IntegratorPlan::velocityOfDisplacement [1/s]
