@@ -3,6 +3,7 @@
 #include "ContactDynamicsStep.hpp"
 #include "DeferredError.hpp"
 #include "EngineOrder.hpp"
+#include "PlaneOfMotion.hpp"
 #include "Reach.hpp"
 #include <core/Scene.hpp>
 #include <core/Timing.hpp>
@@ -32,21 +33,27 @@ namespace {
 
 void ContactDynamicsEngine::postLoad(ContactDynamicsEngine&)
 {
-	const Admitted asked { tolerance, maxIterations, contactLaw, onNonConvergence };
+	const Admitted asked { tolerance, maxIterations, contactLaw, onNonConvergence, repairRate, allowedOverlap };
 	tolerance        = admitted.tolerance;
 	maxIterations    = admitted.maxIterations;
 	contactLaw       = admitted.contactLaw;
 	onNonConvergence = admitted.onNonConvergence;
+	repairRate       = admitted.repairRate;
+	allowedOverlap   = admitted.allowedOverlap;
 	if (!(asked.tolerance > 0 && std::isfinite(asked.tolerance))) refuse("tolerance", asked.tolerance, "it must be positive and finite");
 	if (asked.maxIterations < 1) refuse("maxIterations", asked.maxIterations, "at least one sweep is needed");
 	if (asked.contactLaw != "quasiInelasticShock" && asked.contactLaw != "velocitySignorini" && asked.contactLaw != "signorini")
 		refuse("contactLaw", '"' + asked.contactLaw + '"', "allowed are quasiInelasticShock, velocitySignorini and signorini");
 	if (asked.onNonConvergence != "warn" && asked.onNonConvergence != "raise" && asked.onNonConvergence != "ignore")
 		refuse("onNonConvergence", '"' + asked.onNonConvergence + '"', "allowed are warn, raise and ignore");
+	if (!(asked.repairRate >= 0 && asked.repairRate <= 1)) refuse("repairRate", asked.repairRate, "it must lie between 0 (no repair) and 1");
+	if (!(asked.allowedOverlap >= 0 && std::isfinite(asked.allowedOverlap))) refuse("allowedOverlap", asked.allowedOverlap, "it must be finite and not negative");
 	tolerance        = asked.tolerance;
 	maxIterations    = asked.maxIterations;
 	contactLaw       = asked.contactLaw;
 	onNonConvergence = asked.onNonConvergence;
+	repairRate       = asked.repairRate;
+	allowedOverlap   = asked.allowedOverlap;
 	admitted         = asked;
 }
 
@@ -77,6 +84,9 @@ void ContactDynamicsEngine::collect()
 	step->collectBodies(*scene, IntegratorPlan(*scene, newton));
 	const Real scale = impulseTimeStep > 0 ? scene->dt / impulseTimeStep : 1;
 	step->collectContacts(*scene, contactLaw, warmStart ? scale : 0);
+	step->usePlane();
+	plane             = PlaneOfMotion::nameOf(step->planeAxis);
+	ambiguousContacts = yade::ambiguousContacts(step->problem);
 }
 
 void ContactDynamicsEngine::solve()
@@ -107,6 +117,9 @@ void ContactDynamicsEngine::apply()
 	activeContacts  = step->activeContacts;
 	maxPenetration  = step->maxPenetration;
 	meanPenetration = step->meanPenetration;
+	step->repairPenetration(*scene, repairRate, allowedOverlap);
+	remainingOverlap   = step->repair.remainingOverlap();
+	repairDisplacement = step->repair.largestDisplacement();
 }
 
 boost::python::list ContactDynamicsEngine::freeVelocities() const { return step->velocitiesById(step->free); }

@@ -31,6 +31,7 @@ private:
 		Real   tolerance     = 1e-4;
 		int    maxIterations = 1000;
 		string contactLaw = "quasiInelasticShock", onNonConvergence = "warn";
+		Real   repairRate = 0.1, allowedOverlap = 1e-5;
 	} admitted;
 	bool warned = false;
 
@@ -56,9 +57,19 @@ public:
 		((int,iterations,0,Attr::readonly,"Sweeps of the last solve [-]."))
 		((Real,residual,0,Attr::readonly,"Certificate of the last solve [-]: norm of the natural map F = r − P(r − (u + μ|u_T|n)/W_NN) of all contacts over the norm of their impulses r, both weighted with the local Delassus operator W (so it does not depend on units); P projects on Coulomb's cone. It is the error of the projection equations (2), (7) at the impulses applied, not the size of the last update."))
 		((bool,converged,true,Attr::readonly,"Whether the last residual met the tolerance."))
+		((string,plane,"",Attr::readonly,"Plane of a two-dimensional scene, recognised in every step: ``xy``, ``yz`` or ``zx`` if all movable bodies have the other translation and rotations blocked (:yref:`blockedDOFs<State.blockedDOFs>` ``zXY``, ``xYZ``, ``yZX``) and all contacts lie in that plane; empty otherwise. "
+			"Contacts are then solved by the closed form (34). ``contactdynamics.plane`` makes the disks."))
+		((int,ambiguousContacts,0,Attr::readonly,"Number of contacts in the last solve that violate the condition (33) for a unique solution, μ|W_TN| < W_NN with W the local Delassus operator and W_TN its coupling of tangential impulse and normal velocity [-]. Such a contact of a rigid body has several solutions or none (Painlevé's paradox): one of them is taken, sticking before sliding. "
+			"In three dimensions |W_TN| is the norm of both components and the condition is sufficient. Spheres that are not in clumps always fulfil it."))
 		((Real,maxPenetration,0,Attr::readonly,"Largest overlap of two bodies at the positions the last solve started from [m], ≥ 0."))
 		((Real,meanPenetration,0,Attr::readonly,"Mean overlap of the active contacts at the positions the last solve started from, those with a gap counted as 0 [m]."))
 		((Real,maxApproachSpeed,0,Attr::readonly,"Largest speed at which a contact still violates its condition after the last solve, max(0, −(U_N + max(0,g)/h)) for the default law [m/s]; divided by the speed gravity gives in a step, h·g, it tells what the residual means in motion."))
+		((Real,repairRate,0.1,Attr::triggerPostLoad,"Share of the overlap beyond :yref:`allowedOverlap<ContactDynamicsEngine.allowedOverlap>` that penetration repair takes away in a step [-], 0 … 1, all overlaps in the same proportion: so much that the deepest one shrinks by 1e-4 of a radius, but at least 0.006 and at most this rate. "
+			"Overlaps, left by the residual of the solve or by a packing made with a soft law, are removed by displacing the bodies (pseudo-velocities from a frictionless contact problem in which loaded contacts stay closed; true masses, no rotation, blocked translations kept); velocities and impulses do not change, so no kinetic energy comes from it. "
+			"Default 0.1: gentle enough that grains stay supported while a packing grows to its rigid size. 0 switches the repair off. A value outside raises ValueError. A step without overlaps is the same, bit for bit, with and without repair."))
+		((Real,allowedOverlap,1e-5,Attr::triggerPostLoad,"Overlap that :yref:`repairRate<ContactDynamicsEngine.repairRate>` leaves alone, in radii of the smaller sphere of the contact [-], ≥ 0. Default 1e-5: contacts at rest stay closed instead of opening and closing by round-off. A negative value raises ValueError."))
+		((Real,remainingOverlap,0,Attr::readonly,"Largest overlap expected at the end of the last step, after repair [m], ≥ 0: gap at its start plus way along the normal."))
+		((Real,repairDisplacement,0,Attr::readonly,"Largest displacement of a body by penetration repair in the last step [m]; at most 1e-2 of the smallest radius."))
 		((Real,impulseTimeStep,0,(Attr::readonly|Attr::hidden),"Time step of the impulses stored with the contacts [s]."))
 		,
 		/*ctor*/ timingDeltas = boost::shared_ptr<TimingDeltas>(new TimingDeltas); createStep();

@@ -58,6 +58,7 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 	solved           = false;
 	h                = plan.h;
 	velGrad          = plan.velGrad;
+	displacementAsVelocity = plan.velocityOfDisplacement();
 	const long count = static_cast<long>(scene.bodies->size());
 	views.assign(count, BodyView());
 	idOfIndex.clear();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "FreeMotion.hpp"
+#include "PenetrationRepair.hpp"
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
 #include <pkg/solver/SignoriniCoulombSolver.hpp>
@@ -23,6 +24,8 @@ struct ContactDynamicsStep {
 
 	contactdynamics::GrainProblem problem;
 	std::vector<Twist>            free;                // free velocities by solver index
+	PenetrationRepair             repair;
+	int                           planeAxis       = -1; // normal to the plane of a two-dimensional scene, see PlaneOfMotion
 	int                           activeContacts  = 0; // of the last apply()
 	Real                          maxPenetration  = 0; // [m]
 	Real                          meanPenetration = 0; // [m], mean over the active contacts
@@ -30,8 +33,12 @@ struct ContactDynamicsStep {
 	void collectBodies(Scene& scene, const IntegratorPlan& plan);
 	/// @param warmStart  factor for the stored impulses: ratio of time steps, or 0 to start from nothing
 	void                         collectContacts(const Scene& scene, const std::string& contactLaw, Real warmStart);
+	/// After collectContacts(): recognises a two-dimensional scene, whose disks are solved as balls.
+	void                         usePlane();
 	contactdynamics::SolveReport solve(Real tolerance, int maxIterations);
 	void                         apply(Scene& scene);
+	/// After apply(): displaces bodies that overlap, see PenetrationRepair; a rate of 0 only measures.
+	void repairPenetration(Scene& scene, Real rate, Real allowed);
 
 	std::vector<Twist>  end() const; // velocities at the end of the step by solver index
 	boost::python::list velocitiesById(const std::vector<Twist>& twists) const;
@@ -69,10 +76,13 @@ private:
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;
 	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
 	static void leaveOut(Link& link);
+	Real radiusOf(const Link& link) const;
 
 	bool                                    solved = false; // problem holds a solution
 	Real                                    h = 0;
 	Matrix3r                                velGrad; // that the integrator will apply, for the velocity of periodic images
+	Matrix3r                                displacementAsVelocity; // see IntegratorPlan::velocityOfDisplacement [1/s]
+	std::vector<PenetrationRepair::Overlap> overlaps;               // parallel to links
 	std::vector<BodyView>                   views;   // by body id
 	std::vector<int>                        idOfIndex;
 	std::vector<FreeMotion>                 motions;                 // by solver index

@@ -25,6 +25,13 @@ IntegratorPlan::IntegratorPlan(const Scene& scene, const NewtonIntegrator& newto
 	spinChange          = Vector3r(-spin(1, 2), spin(0, 2), -spin(0, 1));
 }
 
+Matrix3r IntegratorPlan::velocityOfDisplacement() const
+{
+	if (!periodic || !homoDeform) return Matrix3r::Zero();
+	const Matrix3r growth = homoDeform > 1 ? Matrix3r(Matrix3r::Identity() + h * prevVelGrad) : Matrix3r(Matrix3r::Identity());
+	return growth.inverse() * velGradChange;
+}
+
 FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, const Body& body, const Vector3r& force, const Vector3r& torque)
 {
 	requireUsableState(body, force, torque);

@@ -20,6 +20,9 @@ struct IntegratorPlan {
 	Vector3r spinChange;                          // [rad/s]
 
 	IntegratorPlan(const Scene& scene, const NewtonIntegrator& newton);
+	/// Velocity before the step that has the same effect on the velocity after it as a displacement before the step, per displacement [1/s]:
+	/// the mean field of a periodic cell that changes in this step. Zero otherwise.
+	Matrix3r velocityOfDisplacement() const;
 };
 
 /// Free motion of one body: its velocity at the end of the step if no contact impulse acted, exactly as the integrator computes it from

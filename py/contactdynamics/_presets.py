@@ -14,6 +14,7 @@ def engines(
     tolerance: float = 1e-4,
     maxIterations: int = 1000,
     contactLaw: str = "quasiInelasticShock",
+    timeStepper: bool | Any = False,
     **more: Any,
 ) -> list:
     """Return the complete ``O.engines`` of a Contact Dynamics scene of Sphere, Box, Wall, Facet and Clump bodies.
@@ -28,13 +29,18 @@ def engines(
     :param tolerance: bound on the residual of the solve [-], > 0 (``ContactDynamicsEngine.tolerance``)
     :param maxIterations: largest number of sweeps a step, >= 1 (``ContactDynamicsEngine.maxIterations``)
     :param contactLaw: ``quasiInelasticShock``, ``velocitySignorini`` or ``signorini``, Jean (1999) eqs. (25), (23), (24)
+    :param timeStepper: True puts a ContactDynamicsTimeStepper (label ``timeStepper``) with its defaults between ForceResetter and
+        collider, so that ``O.dt`` follows the motion; a ContactDynamicsTimeStepper of your own is put there as it is
     :param more: further attributes of ContactDynamicsEngine, such as ``warmStart=False`` or ``onNonConvergence="raise"``
     :raises ValueError: an attribute has a value that is not admissible; its message names attribute, value and what is allowed
     :raises AttributeError: ContactDynamicsEngine has no attribute of that name
     """
     more.setdefault("label", "cd")
+    if timeStepper is True:
+        timeStepper = wrapper.ContactDynamicsTimeStepper(label="timeStepper")
     return [
         wrapper.ForceResetter(),
+        *([timeStepper] if timeStepper else []),
         wrapper.InsertionSortCollider(
             [
                 wrapper.Bo1_Sphere_Aabb_Proximity(),

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Two-dimensional scenes: disks enter the solve as the balls they are within their plane.
+#include "ContactDynamicsStep.hpp"
+#include "PlaneOfMotion.hpp"
+
+namespace yade {
+
+void ContactDynamicsStep::usePlane()
+{
+	planeAxis = PlaneOfMotion::axisOf(problem);
+	if (planeAxis < 0) return;
+	std::vector<char> disk(problem.bodies.size(), false); // or immobile, which is as good
+	for (const BodyView& view : views) {
+		if (!view.state || view.member) continue;
+		disk[view.index] = view.fixed || (view.radius > 0 && PlaneOfMotion::completeAsBall(problem.bodies[view.index], planeAxis));
+	}
+	for (contactdynamics::Contact& contact : problem.contacts) contact.ball = disk[contact.body1] && disk[contact.body2];
+}
+
+} // namespace yade

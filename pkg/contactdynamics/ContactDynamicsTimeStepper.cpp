@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ContactDynamicsTimeStepper.hpp"
+#include "LargestRates.hpp"
+#include <core/Scene.hpp>
+#include <pkg/common/Collider.hpp>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace yade {
+
+YADE_PLUGIN((ContactDynamicsTimeStepper));
+
+namespace {
+void require(bool fulfilled, const char* attribute, Real value, const char* allowed)
+{
+	if (fulfilled) return;
+	std::ostringstream message;
+	message << "ContactDynamicsTimeStepper." << attribute << " = " << value << ": " << allowed << ".";
+	throw std::invalid_argument(message.str());
+}
+bool positive(Real value) { return value > 0 && std::isfinite(value); }
+bool notNegative(Real value) { return value >= 0 && std::isfinite(value); }
+
+/// The largest h with h (v + h g) <= way, without cancellation; infinite if nothing moves.
+Real stepFor(Real way, Real speed, Real acceleration) { return 2 * way / (speed + std::sqrt(speed * speed + 4 * acceleration * way)); }
+
+void requirePlace(const Scene& scene, const Engine& self)
+{
+	for (const auto& other : scene.engines) {
+		if (other.get() == &self) return;
+		if (!other || other->dead || !dynamic_cast<const Collider*>(other.get())) continue;
+		throw std::runtime_error(
+				"ContactDynamicsTimeStepper: it stands behind the collider (" + other->getClassName() +
+				") in O.engines, which has to look for contacts as far as the new time step carries the bodies; put it before, behind ForceResetter. "
+				"contactdynamics.engines(timeStepper=True) returns a list in the right order.");
+	}
+}
+} // namespace
+
+void ContactDynamicsTimeStepper::put(const Bounds& bounds)
+{
+	maxDisplacement = bounds.maxDisplacement;
+	maxRotation = bounds.maxRotation;
+	proximityDistance = bounds.proximityDistance;
+	minTimeStep = bounds.minTimeStep;
+	maxTimeStep = bounds.maxTimeStep;
+	growth = bounds.growth;
+}
+
+void ContactDynamicsTimeStepper::postLoad(ContactDynamicsTimeStepper&)
+{
+	const Bounds asked{maxDisplacement, maxRotation, proximityDistance, minTimeStep, maxTimeStep, growth};
+	put(admitted);
+	require(positive(asked.maxDisplacement), "maxDisplacement", asked.maxDisplacement, "it must be positive and finite");
+	require(positive(asked.maxRotation), "maxRotation", asked.maxRotation, "it must be positive and finite");
+	require(notNegative(asked.proximityDistance), "proximityDistance", asked.proximityDistance, "it must be finite and not negative");
+	require(notNegative(asked.minTimeStep), "minTimeStep", asked.minTimeStep, "it must be finite and not negative");
+	require(notNegative(asked.maxTimeStep), "maxTimeStep", asked.maxTimeStep, "it must be finite and not negative");
+	require(asked.maxTimeStep == 0 || asked.maxTimeStep >= asked.minTimeStep, "maxTimeStep", asked.maxTimeStep, "it must not be below minTimeStep");
+	require(asked.growth >= 1 && std::isfinite(asked.growth), "growth", asked.growth, "it must be finite and at least 1");
+	put(asked);
+	admitted = asked;
+}
+
+void ContactDynamicsTimeStepper::computeTimeStep(Scene* scene)
+{
+	requirePlace(*scene, *this);
+	const LargestRates rates(*scene);
+	Real h = std::numeric_limits<Real>::infinity();
+	limitedBy.clear();
+	const auto bound = [&](Real largest, const char* name) {
+		if (!(largest < h)) return;
+		h = largest;
+		limitedBy = name;
+	};
+	if (rates.smallestRadius > 0) bound(stepFor(maxDisplacement * rates.smallestRadius, rates.speed, rates.acceleration), "displacement");
+	// Two bodies may come towards each other: each of them gets half of the distance.
+	if (proximityDistance > 0) bound(stepFor(0.5 * proximityDistance, rates.speed, rates.acceleration), "proximity");
+	if (rates.rotation > 0) bound(maxRotation / rates.rotation, "rotation");
+	if (maxTimeStep > 0) bound(maxTimeStep, "maxTimeStep");
+	if (!std::isfinite(h)) return;
+	// The first step has no step before it to grow from; O.dt of then is whatever YADE starts with.
+	if (scene->iter > 0 && scene->dt > 0) bound(growth * scene->dt, "growth");
+	if (h < minTimeStep) {
+		h = minTimeStep;
+		limitedBy = "minTimeStep";
+	}
+	scene->dt = h;
+}
+
+} // namespace yade
