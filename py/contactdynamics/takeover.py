@@ -13,9 +13,9 @@ def takeOver(engines: list, dt: float) -> int:
 
     Which forces hold a packing of rigid grains depends on its history (Jean 1999, section 8). With the soft forces to start from, a packing at
     rest is still at rest in the first step; from nothing, another set of forces might be found, and grains that were wedged slide. Positions and
-    velocities stay. Overlaps are then removed by penetration repair (``ContactDynamicsEngine.repairRate``).
+    velocities stay. Overlaps are then removed by penetration repair, if ``ContactDynamicsEngine.repairRate`` is not 0.
 
-    :param engines: the new engine list, for example ``contactdynamics.engines()``
+    :param engines: the new engine list, for example ``contactdynamics.engines(repairRate=0.1)``
     :param dt: the new time step [s], > 0
     :returns: number of contacts whose force was taken over; in a periodic cell 0 (contacts are found anew there)
     :raises ValueError: dt not positive

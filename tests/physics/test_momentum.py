@@ -49,7 +49,7 @@ def test_momentum_of_a_cloud_is_kept() -> None:
     it moves momentum to another place, which keeps the linear one but not the angular one about the origin.
     """
     cloud(np.random.default_rng(9))
-    equip(5e-3, gravity=(0, 0, 0), tolerance=1e-3, onNonConvergence="ignore", repairRate=0)
+    equip(5e-3, gravity=(0, 0, 0), tolerance=1e-3, onNonConvergence="ignore")
     linear, angular = momentum()
     work, number, touched = 0.0, 200, 0
     for _ in range(number):
@@ -90,7 +90,7 @@ def test_forces_of_a_step_sum_to_zero() -> None:
         if b.isClump:
             b.state.pos = b.state.pos + Vector3(0, 0, 5)
     floor()
-    equip(5e-3, tolerance=1e-4, onNonConvergence="ignore", repairRate=0)  # so that the start of the step can be told from its end
+    equip(5e-3, tolerance=1e-4, onNonConvergence="ignore")
     worst = 0
     for _ in range(150):
         O.step()

@@ -25,12 +25,13 @@ from contactdynamics.takeover import takeOver
 from scenes import EPS, G, cd, dumbbell, equip, floor, grain, material, overlaps, state, steps, vec
 
 NO_GRAVITY = (0, 0, 0)
+RATE = 0.1  # the repair is off by default
 
 
 def test_two_overlapping_balls_part_without_velocity() -> None:
     material()
     light, heavy = grain((0, 0, 0)), grain((1.95, 0, 0), material=material(density=3 * 2600.0))
-    equip(1e-3, gravity=NO_GRAVITY)
+    equip(1e-3, gravity=NO_GRAVITY, repairRate=RATE)
     m1, m2 = state(light).mass, state(heavy).mass
     centre = (m1 * vec(state(light).pos) + m2 * vec(state(heavy).pos)) / (m1 + m2)
 
@@ -81,7 +82,7 @@ def test_blocked_translation_and_clump_members() -> None:
     state(clump).blockedDOFs = "xyXYZ"
     relative = [vec(state(m).pos - state(clump).pos) for m in members]
     start = vec(state(clump).pos)
-    equip(1e-3, gravity=NO_GRAVITY)
+    equip(1e-3, gravity=NO_GRAVITY, repairRate=RATE)
     steps(400)
     moved = vec(state(clump).pos) - start
     assert moved[:2] == pytest.approx([0, 0], abs=0)
@@ -96,7 +97,7 @@ def test_across_the_boundary_of_a_periodic_cell() -> None:
     O.periodic = True
     O.cell.setBox(10, 10, 10)
     one, two = grain((0.5, 5, 5)), grain((8.55, 5, 5))
-    equip(1e-3, gravity=NO_GRAVITY)
+    equip(1e-3, gravity=NO_GRAVITY, repairRate=RATE)
     steps(700)
     distance = 10 - (state(two).pos[0] - state(one).pos[0])
     assert 2 - 2.1e-5 <= distance <= 2
@@ -109,7 +110,7 @@ def test_accelerated_cell_does_not_turn_displacement_into_velocity() -> None:
     O.periodic = True
     O.cell.setBox(10, 10, 10)
     grain((4, 5, 5)), grain((5.8, 5, 5))
-    equip(1e-3, gravity=NO_GRAVITY)
+    equip(1e-3, gravity=NO_GRAVITY, repairRate=RATE)
     for k in range(20):
         O.cell.velGrad = utils.Matrix3(-0.5 * (k % 2 + 1), 0.1 * k, 0, 0, 0, 0, 0, 0, 0)
         O.step()
@@ -152,7 +153,7 @@ def test_soft_packing_is_taken_over() -> None:
     _soft_packing(150, radius)
     before = np.array([i.geom.penetrationDepth for i in O.interactions if i.isReal])
     assert before.mean() > 5e-3 * radius
-    assert takeOver(contactdynamics.engines(), dt=1e-3) > 100
+    assert takeOver(contactdynamics.engines(repairRate=RATE), dt=1e-3) > 100
     O.step()
     # The soft forces balance the grains, so they do the rigid ones: nothing starts to move.
     assert max(b.state.vel.norm() for b in O.bodies) < 1e-6 * math.sqrt(2 * G * radius)
@@ -172,7 +173,7 @@ def test_packing_at_rest_stays() -> None:
         grain((x, y, z - 1e-6))
     for n in range(1, 4):  # three fixed in the plane below, one on top in the hollow
         state(n).blockedDOFs = "xyXYZ"
-    equip(1e-2)
+    equip(1e-2, repairRate=RATE)
     steps(2000)
     overlap, places = cd().meanPenetration, [vec(b.state.pos) for b in O.bodies]
     steps(10000)

@@ -199,7 +199,7 @@ def test_free_box_on_a_fixed_ball(law: str, lifted: bool) -> None:
     material()
     ball = grain((0, 0, 0), fixed=True)
     number = O.bodies.append(utils.box(Vector3(0, 0, 1.999), (1, 1, 1), material=O.materials[0]))
-    equip(H, contactLaw=law, tolerance=1e-10, repairRate=0)  # what the law does of itself
+    equip(H, contactLaw=law, tolerance=1e-10)
     O.step()
     i = contact(ball, number)
     speed = 1e-3 / H if lifted else 0
