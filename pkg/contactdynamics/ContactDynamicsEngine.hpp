@@ -59,6 +59,7 @@ public:
 		((Real,meanPenetration,0,Attr::readonly,"Mean overlap of the active contacts at the positions the last solve started from, those with a gap counted as 0 [m]."))
 		((Real,maxApproachSpeed,0,Attr::readonly,"Largest speed at which a contact still violates its condition after the last solve, max(0, −(U_N + max(0,g)/h)) for the default law [m/s]; divided by the speed gravity gives in a step, h·g, it tells what the residual means in motion."))
 		((Real,impulseTimeStep,0,(Attr::readonly|Attr::hidden),"Time step of the impulses stored with the contacts [s]."))
+		((Real,elasticEnergy,0,(Attr::readonly|Attr::hidden),"Elastic energy of compliant contacts after the last step with O.trackEnergy [J]."))
 		,
 		/*ctor*/ timingDeltas = boost::shared_ptr<TimingDeltas>(new TimingDeltas); createStep();
 		,

@@ -80,7 +80,8 @@ private:
 	std::vector<Place> place;
 	std::vector<std::int32_t> selected, colourOf, order;
 
-	bool isBall(const Contact& c) const { return c.ball && c.imageVelocity.isZero(0); }
+	static bool isCompliant(const Contact& c) { return c.normalCompliance != 0 || c.tangentialCompliance != 0; }
+	bool isBall(const Contact& c) const { return c.ball && c.imageVelocity.isZero(0) && !isCompliant(c); }
 	std::int32_t indexOf(std::int32_t body) const { return movable[body] ? body : ~body; }
 	double normalVelocity(const Sleeper& s) const;
 	double normalVelocity(const Contact& c) const;
