@@ -4,14 +4,15 @@
 The docstrings live once, beside the C++ attributes and the Python functions; this script only turns YADE's roles into Sphinx's.
 """
 
+import importlib
 import inspect
+import pkgutil
 import re
 import sys
 import textwrap
 
 import contactdynamics
 import yade.wrapper
-from contactdynamics import forcenetwork, report
 
 READ_ONLY = 2  # bit of YADE's attribute flags
 HIDDEN = 8
@@ -77,6 +78,12 @@ def publicMembers(module):
     return sorted(found, key=lambda member: inspect.getsourcelines(member)[1])
 
 
+def publicModules():
+    """Modules of the package that a user imports, in the order of their names."""
+    names = [module.name for module in pkgutil.iter_modules(contactdynamics.__path__) if not module.name.startswith("_")]
+    return [importlib.import_module(f"contactdynamics.{name}") for name in sorted(names)]
+
+
 def title(text, line):
     return f"{text}\n{line * len(text)}\n"
 
@@ -92,8 +99,8 @@ def main(path):
     parts += [title("Presets", "-"), ofPython("contactdynamics", contactdynamics.engines)]
     for heading, entries in groups.items():
         parts += [title(heading, "-"), *entries]
-    for heading, module in (("Report", report), ("Picture of the force network", forcenetwork)):
-        parts += [title(heading, "-"), inspect.cleandoc(module.__doc__) + "\n", *[ofPython(module.__name__, member) for member in publicMembers(module)]]
+    for module in publicModules():
+        parts += [title(module.__name__, "-"), inspect.cleandoc(module.__doc__) + "\n", *[ofPython(module.__name__, member) for member in publicMembers(module)]]
     with open(path, "w") as file:
         file.write("\n".join(parts))
     print(f"{len(OWN)} classes written to {path}")

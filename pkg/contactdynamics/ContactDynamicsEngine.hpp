@@ -17,6 +17,7 @@ public:
 	boost::python::list freeVelocities() const;
 	boost::python::list predictedVelocities() const;
 	boost::python::list predictedAngularMomenta() const;
+	boost::python::dict lastProblem() const;
 
 private:
 	struct Step; // problem, solver and what connects them with the scene; kept between steps so that memory is allocated once
@@ -67,6 +68,9 @@ public:
 		.def("freeVelocities",&ContactDynamicsEngine::freeVelocities,"Free velocities of the last step by body id: (velocity [m/s], angular velocity [rad/s]) at the end of the step without contact impulses; ``None`` for ids that NewtonIntegrator does not move itself (erased bodies, clump members, bodies left out by its mask).")
 		.def("predictedVelocities",&ContactDynamicsEngine::predictedVelocities,"Velocities at the end of the last step with the contact impulses, as :yref:`freeVelocities<ContactDynamicsEngine.freeVelocities>`; NewtonIntegrator arrives at the same but for round-off (angular velocity of aspherical bodies: but for the turn of one step).")
 		.def("predictedAngularMomenta",&ContactDynamicsEngine::predictedAngularMomenta,"Angular momenta [kg·m²/s] at the end of the last step by body id, of aspherical bodies with exact rotation; ``None`` for all other ids.")
+		.def("lastProblem",&ContactDynamicsEngine::lastProblem,"The contact problem of the last step with its solution, as a dictionary: u = W r + q, per contact 0 ≤ u_N ⟂ r_N ≥ 0 and Coulomb's law. ``dimension`` 3; W [1/kg] by rows of 3×3 blocks: those of row i are rowStart[i] … rowStart[i+1]−1 of ``column`` and ``blocks`` (nine numbers each, row by row); "
+			"``q`` [m/s] relative velocity without impulses, gap velocity max(0,g)/h (by contactLaw) added to its normal component; ``friction`` [-]; ``impulse`` r [N·s] and ``velocity`` u [m/s] of the solution, three numbers a contact in the frame of :yref:`ContactDynamicsPhys.localVelocity`, normal first; ``bodies`` the two ids of each contact (the clump of a member). "
+			"W is assembled by this call. ``contactdynamics.fclib.write`` puts it into a file. RuntimeError when no step has been solved.")
 	);
 	// clang-format on
 private:

@@ -2,6 +2,7 @@
 #include "ContactDynamicsStep.hpp"
 #include "ContactDynamicsPhys.hpp"
 #include "FacetEdges.hpp"
+#include "LocalFrame.hpp"
 #include "ParallelLoop.hpp"
 #include <core/Cell.hpp>
 #include <core/Clump.hpp>
@@ -34,15 +35,6 @@ namespace {
 		throw std::runtime_error(message.str());
 	}
 
-	/// Components along the normal and the two tangents that ContactDynamicsPhys.localVelocity documents.
-	Vector3r inLocalFrame(const Vector3r& vector, const Vector3r& normal)
-	{
-		int axis;
-		normal.cwiseAbs().minCoeff(&axis);
-		const Vector3r tangent1 = (Vector3r::Unit(axis) - normal[axis] * normal).normalized();
-		return { normal.dot(vector), tangent1.dot(vector), normal.cross(tangent1).dot(vector) };
-	}
-
 	ContactDynamicsPhys* contactDynamicsPhys(const Interaction& interaction)
 	{
 		IPhys* phys = interaction.phys.get();
@@ -63,6 +55,7 @@ namespace {
 
 void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan)
 {
+	solved           = false;
 	h                = plan.h;
 	velGrad          = plan.velGrad;
 	const long count = static_cast<long>(scene.bodies->size());
@@ -179,6 +172,16 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 	};
 	contact.arm1 = fromMassCentre(view1, link.arm1);
 	contact.arm2 = fromMassCentre(view2, link.arm2);
+	// The velocity of a fixed body at the contact point is known. Given as a shift it leaves no arm across the normal, so that a ball
+	// on a turning box keeps the closed form.
+	if (view1.fixed) {
+		contact.imageVelocity -= free[view1.index].angularVelocity.cross(contact.arm1);
+		contact.arm1 = Vector3r::Zero();
+	}
+	if (view2.fixed) {
+		contact.imageVelocity += free[view2.index].angularVelocity.cross(contact.arm2);
+		contact.arm2 = Vector3r::Zero();
+	}
 
 	link.swapped = view1.radius > 0 && view2.radius > 0 && interaction.getId1() > interaction.getId2();
 	if (link.swapped) {
@@ -290,7 +293,9 @@ contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxI
 	options.tolerance     = tolerance;
 	options.maxIterations = maxIterations;
 	options.threads       = omp_get_max_threads();
-	return rolling.empty() ? solver.solve(problem, options) : rolling.solve(solver, problem, options);
+	const auto report     = rolling.empty() ? solver.solve(problem, options) : rolling.solve(solver, problem, options);
+	solved                = report.status != contactdynamics::SolveStatus::notFinite;
+	return report;
 }
 
 void ContactDynamicsStep::writeBack(const Link& link, const contactdynamics::Contact& contact) const
@@ -303,7 +308,7 @@ void ContactDynamicsStep::writeBack(const Link& link, const contactdynamics::Con
 	phys.normalForce            = normal.dot(force) * normal;
 	phys.shearForce             = force - phys.normalForce;
 	phys.gap                    = link.gap;
-	phys.localVelocity          = inLocalFrame(sign * contact.relativeVelocity, normal);
+	phys.localVelocity          = localFrame(normal) * (sign * contact.relativeVelocity);
 	phys.status                 = nameOf(contact.status);
 }
 

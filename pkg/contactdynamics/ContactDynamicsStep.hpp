@@ -3,6 +3,7 @@
 #include "FreeMotion.hpp"
 #include "RollingFriction.hpp"
 #include "ShiftedContacts.hpp"
+#include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
 #include <pkg/solver/SignoriniCoulombSolver.hpp>
 #include <string>
@@ -38,6 +39,7 @@ struct ContactDynamicsStep {
 	std::vector<Twist>  end() const; // velocities at the end of the step by solver index
 	boost::python::list velocitiesById(const std::vector<Twist>& twists) const;
 	boost::python::list angularMomentaById() const;
+	boost::python::dict asDictionary() const; // see ContactDynamicsEngine.lastProblem
 
 private:
 	/// What the contacts need of a body, looked up once a step instead of once a contact.
@@ -75,6 +77,7 @@ private:
 	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
 	static void leaveOut(Link& link);
 
+	bool                                    solved = false; // problem holds a solution
 	Real                                    h = 0;
 	Matrix3r                                velGrad; // that the integrator will apply, for the velocity of periodic images
 	std::vector<BodyView>                   views;   // by body id

@@ -9,6 +9,13 @@ namespace {
 /// Bodies this much of a lever arm apart touch: round-off of positions, not physics.
 constexpr Real touching = 1e-6;
 
+/// The shorter lever arm [m]; that of a fixed body is zero, because its velocity is known, and does not count.
+Real armLength(const contactdynamics::Contact& contact)
+{
+	const Real one = contact.arm1.norm(), two = contact.arm2.norm();
+	return one > 0 && two > 0 ? std::min(one, two) : std::max(one, two);
+}
+
 /// Coefficients a, b of the class comment.
 struct Averaging {
 	Real end, start;
@@ -39,8 +46,7 @@ bool ShiftedContacts::isImpact(int index) const
 void ShiftedContacts::bond(const contactdynamics::Contact& contact, ContactDynamicsPhys& phys, Shift& made, const Approach& approach) const
 {
 	if (!(phys.cohesionForce > 0 || phys.cohesionShear > 0)) return;
-	if (phys.bond == "none" && (approach.gap <= touching * std::min(contact.arm1.norm(), contact.arm2.norm()) || phys.status != "none"))
-		phys.bond = "intact";
+	if (phys.bond == "none" && (approach.gap <= touching * armLength(contact) || phys.status != "none")) phys.bond = "intact";
 	made.bonded = isBonded(phys);
 	if (made.bonded) made.attraction = h * (phys.cohesionForce + (phys.cohesionShear > 0 ? phys.cohesionShear / contact.friction : 0));
 }

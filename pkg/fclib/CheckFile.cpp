@@ -61,7 +61,9 @@ Shape requireMatrix(const Hdf5File& file, const std::string& name)
 	const int stored = format >= 0 ? format : capacity;
 	const std::string because = format >= 0 ? "nz" : "nzmax";
 	requireEntries(file, name + "/i", stored, because);
-	requireVector(file, name + "/x", stored, because);
+	// Some writers store the spare room of a triplet matrix, too, and libfclib has taken memory for it.
+	const bool withRoom = format >= 0 && file.entries(name + "/x") == capacity;
+	requireVector(file, name + "/x", withRoom ? capacity : stored, because);
 	if (format >= 0) {
 		requireEntries(file, name + "/p", stored, because);
 		requireIndices(file, name + "/i", rows);

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <hdf5.h>
 #include <hdf5_hl.h>
+#include <limits>
+#include <type_traits>
 
 namespace contactdynamics::fclib {
 
@@ -36,14 +38,8 @@ template <class Value> std::vector<Value> numbers(const Hdf5File& owner, hid_t f
 	const H5T_class_t found = H5Tget_class(stored);
 	if (found != kind && !(kind == H5T_FLOAT && found == H5T_INTEGER))
 		owner.refuse(name, kind == H5T_INTEGER ? "does not hold integers" : "does not hold numbers");
-	// A damaged header may promise any number of entries: no memory is taken for more than the file could hold.
-	if (H5Dget_storage_size(data) == 0 && count > 0) owner.refuse(name, "was never filled");
-	std::vector<Value> values;
-	try {
-		values.resize(std::size_t(count));
-	} catch (const std::exception&) {
-		owner.refuse(name, "has " + std::to_string(count) + " entries, too many for the memory");
-	}
+	if (count > std::numeric_limits<int>::max()) owner.refuse(name, "has " + std::to_string(count) + " entries, more than FCLIB can count");
+	std::vector<Value> values(static_cast<std::size_t>(count));
 	if (count > 0 && H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
 		owner.refuse(name, "cannot be read; the file is cut short or damaged");
 	return values;

@@ -39,8 +39,7 @@ void readLocal(const std::string& path, Problem& problem)
 		// R l = -V^T r - s,  u = W r + V l + q
 		const Sparse V = sparse(*file->V);
 		try {
-			const Reduced part =
-					eliminate(sparse(*file->R), -Sparse(V.transpose()), -vector(file->s, V.cols()), Sparse(V.transpose()), reduced.q);
+			const Reduced part = eliminate(sparse(*file->R), -Sparse(V.transpose()), -vector(file->s, V.cols()), Sparse(V.transpose()), reduced.q);
 			reduced = {Sparse(reduced.W + part.W), part.q};
 		} catch (const std::domain_error& singular) {
 			throw FileError(path + ": dataset /fclib_local/R " + singular.what() + ", so the equality constraints cannot be eliminated");
@@ -85,10 +84,15 @@ Problem readProblem(const std::string& path)
 		problem.form = requireProblem(file);
 		const std::string title = problem.form == Form::local ? "/fclib_local/info/title" : "/fclib_global/info/title";
 		if (file.has(title)) problem.title = file.text(title);
-		if (requireSolution(file, problem.form)) problem.stored = file.reals("/solution/r");
 	}
 	problem.form == Form::local ? readLocal(path, problem) : readGlobal(path, problem);
 	return problem;
+}
+
+std::vector<double> readSolution(const std::string& path)
+{
+	const Hdf5File file(path);
+	return requireSolution(file, requireProblem(file)) ? file.reals("/solution/r") : std::vector<double>();
 }
 
 } // namespace contactdynamics::fclib

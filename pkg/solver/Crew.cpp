@@ -18,10 +18,10 @@ void pauseBriefly()
 
 Crew::Crew(int threads)
 {
-	helpers.reserve(threads > 1 ? threads - 1 : 0);
+	mates.reserve(threads > 1 ? threads - 1 : 0);
 	for (int i = 1; i < threads; ++i) {
 		try {
-			helpers.emplace_back([this] { help(); });
+			mates.emplace_back([this] { assist(); });
 		} catch (const std::system_error&) {
 			return;
 		}
@@ -30,19 +30,38 @@ Crew::Crew(int threads)
 
 Crew::~Crew()
 {
-	dismissed.store(true, std::memory_order_release);
-	for (std::thread& helper : helpers) helper.join();
+	dismissed.store(true);
+	ring();
+	for (std::thread& mate : mates) mate.join();
 }
 
-/// Takes and does one job; false when none is open. The number of jobs and the next one are one word: a thread that comes late finds either
-/// no open job or a valid one, never one of a stage that is over.
-bool Crew::takeJob()
+bool Crew::jobOpen() const
 {
-	std::uint64_t now = board.load(std::memory_order_acquire);
+	const std::uint64_t now = board.load();
+	return (now & 0xffffffff) < (now >> 32);
+}
+
+/// Wakes the mates that sleep. Sequentially consistent order does it: either the leader sees a mate as asleep, or that mate sees the new board.
+void Crew::ring()
+{
+	if (asleep.load() == 0) return;
+	{
+		const std::lock_guard<std::mutex> lock(bed);
+	}
+	bell.notify_all();
+}
+
+/// Takes and does one job; false when none is open. Both ends of the open jobs are one word: a thread that comes late finds either no open job or
+/// valid ones, never one of a stage that is over.
+bool Crew::takeJob(End end)
+{
+	constexpr std::uint64_t half = 0xffffffff;
+	std::uint64_t now = board.load(std::memory_order_acquire), next;
 	do {
-		if ((now & 0xffffffff) >= (now >> 32)) return false;
-	} while (!board.compare_exchange_weak(now, now + 1, std::memory_order_acq_rel, std::memory_order_acquire));
-	call(context, first + (now & 0xffffffff));
+		if ((now & half) >= (now >> 32)) return false;
+		next = end == End::front ? now + 1 : now - (half + 1);
+	} while (!board.compare_exchange_weak(now, next, std::memory_order_acq_rel, std::memory_order_acquire));
+	call(context, first + (end == End::front ? now & half : (now >> 32) - 1));
 	done.fetch_add(1, std::memory_order_acq_rel);
 	return true;
 }
@@ -51,19 +70,41 @@ void Crew::stage(std::size_t firstJob, std::size_t count)
 {
 	first = firstJob;
 	done.store(0, std::memory_order_relaxed);
-	board.store(std::uint64_t(count) << 32, std::memory_order_release);
-	while (takeJob()) {}
-	for (int spins = 0; done.load(std::memory_order_acquire) != count; ++spins) spins < 2000 ? pauseBriefly() : std::this_thread::yield();
+	board.store(std::uint64_t(count) << 32);
+	ring();
+	while (takeJob(End::front)) {}
+	constexpr int patience = 10000; // pauses, some tenths of a millisecond
+	for (int spins = 0; done.load(std::memory_order_acquire) != count; ++spins) {
+		if (spins < patience) {
+			pauseBriefly();
+			continue;
+		}
+		if (spins == patience) {
+			alone = penalty;
+			if (penalty < 1 << 20) penalty *= 2;
+		}
+		std::this_thread::yield();
+	}
 }
 
-void Crew::help()
+/// Stages follow each other within microseconds: a mate spins for some, then sleeps. It does not yield: recent kernels count that against the
+/// thread, and a mate that yielded was not seen again for milliseconds.
+void Crew::assist()
 {
 	int spins = 0;
 	while (!dismissed.load(std::memory_order_acquire)) {
-		if (takeJob())
+		if (takeJob(End::back))
 			spins = 0;
-		else
-			++spins < 2000 ? pauseBriefly() : std::this_thread::yield();
+		else if (++spins < 20000)
+			pauseBriefly();
+		else {
+			asleep.fetch_add(1);
+			std::unique_lock<std::mutex> lock(bed);
+			bell.wait(lock, [this] { return jobOpen() || dismissed.load(); });
+			lock.unlock();
+			asleep.fetch_sub(1);
+			spins = 0;
+		}
 	}
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -11,12 +13,12 @@ namespace contactdynamics {
 /// Threads that share the independent jobs of one stage after another, for stages of microseconds.
 ///
 /// The leader publishes a stage, takes jobs itself and goes on as soon as all jobs are done: it never waits for a thread, only for a job that a
-/// helper has begun. OpenMP's barriers were rejected: on a machine with other work each of them waits for every thread to be scheduled again, and a
+/// mate has begun. OpenMP's barriers were rejected: on a machine with other work each of them waits for every thread to be scheduled again, and a
 /// sweep of ten colours, 20 microseconds of work, took 40 milliseconds on two busy cores.
 /// Which thread does a job is a matter of chance; results must not depend on it.
 class Crew {
 public:
-	/// Helpers for the life time of the object; none when the system refuses more threads: then the leader does all.
+	/// Mates for the life time of the object; none when the system refuses more threads: then the leader does all.
 	explicit Crew(int threads);
 	~Crew();
 	Crew(const Crew&) = delete;
@@ -25,7 +27,8 @@ public:
 	/// Calls job(0) ... job(count - 1), each once, concurrently; returns when all are done. Jobs must not throw.
 	template <class Job> void run(std::size_t count, const Job& job)
 	{
-		if (helpers.empty() || count < 2) {
+		if (mates.empty() || count < 2 || alone > 0) {
+			if (alone > 0) --alone;
 			for (std::size_t i = 0; i < count; ++i) job(i);
 			return;
 		}
@@ -37,18 +40,28 @@ public:
 private:
 	static constexpr std::size_t maxJobs = 0x7fffffff;
 
-	std::vector<std::thread> helpers;
+	std::vector<std::thread> mates;
 	// Of the present stage; written by the leader only while no job is open.
 	void (*call)(const void*, std::size_t) = nullptr;
 	const void* context = nullptr;
 	std::size_t first = 0;
-	alignas(64) std::atomic<std::uint64_t> board{0}; // jobs of the stage (upper half) and the next one to take (lower half)
+	// A mate that the system took off its core in mid-job holds everybody up; the leader then works alone for a while, longer each time.
+	int alone = 0, penalty = 64;
+	alignas(64) std::atomic<std::uint64_t> board{0}; // open jobs: one past the last (upper half) and the first (lower half)
 	alignas(64) std::atomic<std::size_t> done{0};
 	std::atomic<bool> dismissed{false};
+	std::atomic<int> asleep{0}; // mates that wait for the bell because nothing came for a while
+	std::mutex bed;
+	std::condition_variable bell;
 
-	bool takeJob();
+	bool jobOpen() const;
+	void ring();
+
+	/// The leader takes jobs from the front, mates from the back: so each core meets the same bodies again in the next colour.
+	enum class End { front, back };
+	bool takeJob(End end);
 	void stage(std::size_t firstJob, std::size_t count);
-	void help();
+	void assist();
 };
 
 } // namespace contactdynamics

@@ -7,8 +7,8 @@ namespace contactdynamics {
 
 Matrix3 contactFrame(const Vector3& normal)
 {
-	const Vector3 helper = std::abs(normal[0]) < 0.6 ? Vector3::UnitX() : Vector3::UnitY();
-	const Vector3 t1 = (helper - helper.dot(normal) * normal).normalized();
+	const Vector3 axis = std::abs(normal[0]) < 0.6 ? Vector3::UnitX() : Vector3::UnitY();
+	const Vector3 t1 = (axis - axis.dot(normal) * normal).normalized();
 	Matrix3 frame;
 	frame.row(0) = normal;
 	frame.row(1) = t1;

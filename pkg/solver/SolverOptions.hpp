@@ -13,7 +13,7 @@ struct SolverOptions {
 	double tolerance = 1e-4;  ///< bound on SolveReport::residual [-]; 1e-3 quasi-static flow, 1e-4 default, 1e-8 to 1e-12 verification; > 0
 	int maxIterations = 1000; ///< sweeps over the contacts; 0 only evaluates the residual of the impulses handed over
 	Acceleration acceleration = Acceleration::conjugate;
-	int threads = 1; ///< OpenMP threads, >= 1; the result does not depend on it, bit for bit
+	int threads = 1; ///< threads, >= 1 (the caller is one of them); the result does not depend on it, bit for bit
 };
 
 /// @throws std::invalid_argument  naming the option and its value

@@ -102,7 +102,8 @@ def test_dumbbell_slides_flat(kind: str) -> None:
 def test_ladder_between_floor_and_wall(kind: str) -> None:
     """A dumbbell leans on a wall without friction at its upper end and stands on the floor with friction.
 
-    Statics in the plane: the wall carries m g / 2 cot(phi), with phi the inclination, and the floor needs as much friction.
+    Statics in the plane: moments about the contact of the foot give the force on the wall, and the friction of the
+    floor is as large.
     """
     smooth = material(friction=0)
     floor, side = plane(kind, 2), plane(kind, 0)
@@ -117,8 +118,7 @@ def test_ladder_between_floor_and_wall(kind: str) -> None:
     equip(H, tolerance=1e-12, maxIterations=100000)
     O.step()
     weight = state(number).mass * G
-    # Friction acts at the surface, a radius below the centre of the foot: its arm about the head's contact is longer.
-    # Moments about the foot's contact: m g L/2 cos(phi) = P (L sin(phi) + r).
+    # The foot's contact lies a radius below its centre: m g L/2 cos(phi) = P (L sin(phi) + r).
     push = weight * length / 2 * math.cos(phi) / (length * math.sin(phi) + 1)
     assert cd().converged
     assert contact(side, head).phys.normalForce.norm() == pytest.approx(push, rel=1e-8)

@@ -106,13 +106,13 @@ def test_forces_of_a_step_sum_to_zero() -> None:
 def test_energy_of_a_cloud_never_rises(friction: float) -> None:
     """Without gravity and with e = 0 every solve takes kinetic energy away, or none.
 
-    At the solution the work of the contact impulses is P . U - P . W P / 2 with P . U <= 0. Tolerance 1e-10 of the
+    At the solution the work of the contact impulses is P . U - P . W P / 2 with P . U <= 0. Tolerance 1e-8 of the
     solver leaves an error of that order times the energy turned over.
     """
     cloud(np.random.default_rng(11), clumps=0)
     for b in O.bodies:
         b.material.frictionAngle = np.arctan(friction)
-    equip(5e-3, gravity=(0, 0, 0), tolerance=1e-10, maxIterations=50000)
+    equip(5e-3, gravity=(0, 0, 0), tolerance=1e-8, maxIterations=50000)
 
     def energy() -> float:
         states = [b.state for b in O.bodies]
@@ -122,7 +122,7 @@ def test_energy_of_a_cloud_never_rises(friction: float) -> None:
     for _ in range(150):
         steps(1)
         now = energy()
-        assert now <= last + 1e-9 * first
+        assert now <= last + 1e-7 * first
         last = now
     assert last < 0.9 * first, "nothing collided"
 

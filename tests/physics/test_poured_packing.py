@@ -101,8 +101,8 @@ def poured() -> Watch:
     watch = Watch()
     weight = watch.mass.sum() * G
     # At rest: for twenty steps the momentum changes by less than 5e-5 of the weight, so no grain is in free flight (one
-    # is 5e-4 of all), and the kinetic energy is a fiftieth of what lifts one grain by its radius. Single grains may go on
-    # rocking in their nests, because nothing resists rolling.
+    # is 5e-4 of all), and the kinetic energy is a fiftieth of what lifts one grain by its radius. Single grains may go
+    # on rocking in their nests, because nothing resists rolling.
     quiet = 0
     while quiet < 20:
         O.step()

@@ -35,7 +35,7 @@ def refused(*words: str) -> None:
 
 
 def works() -> None:
-    """The ball lies still, at most one step of free fall below the start: some mistakes are found behind an integrator."""
+    """The ball lies still, at most one step of free fall below the start: an integrator may stand before the error."""
     steps(20)
     assert abs(state(1).pos[2] - 1) < 1.01 * 9.81 * H**2
     assert state(1).vel.norm() < 1e-10

@@ -125,7 +125,8 @@ def test_engines_assigned_during_a_step() -> None:
     material()
     floor()
     grain((0, 0, 1))
-    equip(H, before=[PyRunner(command="import test_odd_scenes as t; t.replace_engines()", iterPeriod=1, firstIterRun=2)])
+    command = "import test_odd_scenes as t; t.replace_engines()"
+    equip(H, before=[PyRunner(command=command, iterPeriod=1, firstIterRun=2)])
     steps(6)
     assert not any(isinstance(e, PyRunner) for e in O.engines)
     assert cd().tolerance == 1e-7 and cd().activeContacts == 1
