@@ -122,6 +122,18 @@ void ShiftedContacts::restore(contactdynamics::GrainProblem& problem) const
 	}
 }
 
+contactdynamics::GrainProblem ShiftedContacts::asSolved(const contactdynamics::GrainProblem& problem) const
+{
+	contactdynamics::GrainProblem solved = problem;
+	for (const Shift& made : shifts) {
+		contactdynamics::Contact& contact = solved.contacts[made.index];
+		contact.relativeVelocity += made.tangential;
+		contact.imageVelocity += made.tangential;
+		contact.impulse += made.attraction * contact.normal;
+	}
+	return solved;
+}
+
 /// Where the contact sticks the spring takes the whole motion, where it slides all but the slip; an open contact forgets it.
 void ShiftedContacts::stretch(const Shift& made, const contactdynamics::Contact& contact, const Vector3r& slip) const
 {

@@ -36,6 +36,10 @@ public:
 	/// Back to true impulses and velocities, and what the law remembers (bond, stretch).
 	void restore(contactdynamics::GrainProblem& problem) const;
 
+	/// The problem as it was solved, from what restore() left.
+	contactdynamics::GrainProblem asSolved(const contactdynamics::GrainProblem& problem) const;
+	bool                          empty() const { return shifts.empty(); }
+
 	/// Whether a contact of this law can carry a force without being pressed together in this step.
 	static bool isBonded(const ContactDynamicsPhys& phys);
 	/// Whether number `index` is an impact with restitution.
