@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from yade import O, Vector3
 
-from scenes import G, contact, equip, floor, grain, law, state, steps, vec
+from scenes import G, contact, engine, equip, floor, grain, law, state, steps, vec
 
 H = 1e-3
 PART = 1e-6  # loads this much below and above the strength; the solve is exact to 1e-10
@@ -82,8 +82,6 @@ def test_no_bonds_where_switched_off() -> None:
     plate = floor()
     ball = grain((0, 0, 1))
     equip(H)
-    from scenes import engine
-
     engine("InteractionLoop").physDispatcher.functors[1].bonding = False
     steps(3)
     pull(ball, (0, 0, 2 * G * state(ball).mass))
