@@ -197,3 +197,21 @@ def overlaps() -> np.ndarray:
             distance = np.linalg.norm(np.maximum(offset, 0)) + min(0.0, offset.max())
         found.append(max(0.0, two.shape.radius - distance))
     return np.array(found)
+
+
+def law(**attributes):
+    """A new ContactDynamicsMat of the scene; friction 0.5 and the density of `material` unless given."""
+    attributes.setdefault("frictionAngle", math.atan(0.5))
+    attributes.setdefault("density", 2600)
+    number = O.materials.append(contactdynamics.ContactDynamicsMat(**attributes))
+    return O.materials[number]
+
+
+def kinetic_energy() -> float:
+    """Of all bodies that move freely and are integrated as balls."""
+    energy = 0.0
+    for b in O.bodies:
+        if b.dynamic and not b.isClumpMember:
+            energy += 0.5 * b.state.mass * b.state.vel.squaredNorm()
+            energy += 0.5 * float(vec(b.state.inertia) @ vec(b.state.angVel) ** 2)
+    return energy

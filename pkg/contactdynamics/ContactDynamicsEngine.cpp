@@ -111,7 +111,9 @@ void ContactDynamicsEngine::solve()
 
 void ContactDynamicsEngine::apply()
 {
+	step->elasticEnergy = elasticEnergy;
 	step->apply(*scene);
+	elasticEnergy   = step->elasticEnergy;
 	impulseTimeStep = scene->dt;
 	contacts        = static_cast<int>(step->problem.contacts.size());
 	activeContacts  = step->activeContacts;

@@ -71,6 +71,7 @@ public:
 		((Real,remainingOverlap,0,Attr::readonly,"Largest overlap expected at the end of the last step, after repair [m], ≥ 0: gap at its start plus way along the normal."))
 		((Real,repairDisplacement,0,Attr::readonly,"Largest displacement of a body by penetration repair in the last step [m]; at most 1e-2 of the smallest radius."))
 		((Real,impulseTimeStep,0,(Attr::readonly|Attr::hidden),"Time step of the impulses stored with the contacts [s]."))
+		((Real,elasticEnergy,0,(Attr::readonly|Attr::hidden),"Elastic energy of compliant contacts after the last step with O.trackEnergy [J]."))
 		,
 		/*ctor*/ timingDeltas = boost::shared_ptr<TimingDeltas>(new TimingDeltas); createStep();
 		,

@@ -204,22 +204,29 @@ void ContactDynamicsStep::requireUsable(const Link& link, const contactdynamics:
 		       "the friction coefficient (ContactDynamicsPhys.tangensOfFrictionAngle)",
 		       contact.friction,
 		       "it must be finite and not negative");
+	link.phys->requireUsable([&](const char* what, Real value, const char* allowed) { refuse(*link.interaction, what, value, allowed); });
 	if (!link.phys->impulse.allFinite())
 		refuse(*link.interaction, "the stored impulse (ContactDynamicsPhys.impulse)", link.phys->impulse.sum(), "it must be finite");
+}
+
+ContactDynamicsStep::Twist ContactDynamicsStep::atStart(int index) const
+{
+	if (!motions[index].moved) return { Vector3r::Zero(), Vector3r::Zero() };
+	const State& state = *views[idOfIndex[index]].state;
+	return { state.vel, state.angVel };
+}
+
+Vector3r ContactDynamicsStep::relativeVelocity(const contactdynamics::Contact& contact, const Twist& of1, const Twist& of2) const
+{
+	return of2.velocity + of2.angularVelocity.cross(contact.arm2) + contact.imageVelocity - of1.velocity - of1.angularVelocity.cross(contact.arm1);
 }
 
 /// Whether contact is forecast in the sense of (23): the gap is closed, or will be with the velocity of now or with the free velocity.
 bool ContactDynamicsStep::forecast(const Link& link, const contactdynamics::Contact& contact) const
 {
 	if (link.gap <= 0) return true;
-	const auto closes = [&](const Twist& of1, const Twist& of2) {
-		const Vector3r velocity = of2.velocity + of2.angularVelocity.cross(contact.arm2) + contact.imageVelocity - of1.velocity - of1.angularVelocity.cross(contact.arm1);
-		return link.gap + h * contact.normal.dot(velocity) <= 0;
-	};
-	const auto atStart = [&](int index) {
-		const State& state = *views[idOfIndex[index]].state;
-		return Twist { state.vel, state.angVel };
-	};
+	const auto closes
+	        = [&](const Twist& of1, const Twist& of2) { return link.gap + h * contact.normal.dot(relativeVelocity(contact, of1, of2)) <= 0; };
 	return closes(free[contact.body1], free[contact.body2]) || closes(atStart(contact.body1), atStart(contact.body2));
 }
 
@@ -236,7 +243,7 @@ void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string&
 		requireUsable(link, contact);
 		contact.impulse     = (link.swapped ? -warmStart : warmStart) * link.phys->impulse;
 		contact.gapVelocity = velocitySignorini ? 0 : (quasiInelasticShock ? std::max(Real(0), link.gap) : link.gap) / h;
-		if (velocitySignorini) link.solved = link.solved && forecast(link, contact);
+		if (velocitySignorini) link.solved = link.solved && (forecast(link, contact) || ShiftedContacts::isBonded(*link.phys));
 		if (!link.solved) leaveOut(link);
 	});
 	std::size_t kept = 0;
@@ -250,6 +257,24 @@ void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string&
 	}
 	links.resize(kept);
 	problem.contacts.resize(kept);
+	shiftContacts(warmStart);
+}
+
+void ContactDynamicsStep::shiftContacts(Real warmStart)
+{
+	shifted.clear(h);
+	rolling.clear();
+	for (std::size_t i = 0; i < links.size(); i++) {
+		const Link& link = links[i];
+		if (!link.phys->isShifted()) continue;
+		const contactdynamics::Contact& contact = problem.contacts[i];
+		shifted.shift(
+		        problem,
+		        static_cast<int>(i),
+		        *link.phys,
+		        { link.gap, relativeVelocity(contact, atStart(contact.body1), atStart(contact.body2)), forecast(link, contact), link.swapped });
+		if (link.phys->rollingArm > 0 || link.phys->twistingArm > 0) rolling.add(static_cast<int>(i), *link.phys, link.swapped, warmStart);
+	}
 }
 
 /// A pair that takes no part in the solve: no reaction, and the local velocity left from an earlier step would mislead.
@@ -269,7 +294,7 @@ contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxI
 	options.tolerance     = tolerance;
 	options.maxIterations = maxIterations;
 	options.threads       = omp_get_max_threads();
-	const auto report     = solver.solve(problem, options);
+	const auto report     = rolling.empty() ? solver.solve(problem, options) : rolling.solve(solver, problem, options);
 	solved                = report.status != contactdynamics::SolveStatus::notFinite;
 	return report;
 }
@@ -290,6 +315,11 @@ void ContactDynamicsStep::writeBack(const Link& link, const contactdynamics::Con
 
 void ContactDynamicsStep::apply(Scene& scene)
 {
+	bonded.assign(scene.trackEnergy ? links.size() : 0, 0);
+	for (std::size_t i = 0; i < bonded.size(); i++)
+		bonded[i] = ShiftedContacts::isBonded(*links[i].phys);
+	shifted.restore(problem);
+	rolling.remember();
 	parallelLoop(static_cast<long>(links.size()), [&](long i) { writeBack(links[i], problem.contacts[i]); });
 
 	// One sum a body, in the order of the contacts: adding from several threads would make the last bits depend on their number.
@@ -314,6 +344,12 @@ void ContactDynamicsStep::apply(Scene& scene)
 		on2.torque += link.arm2.cross(force);
 	}
 	meanPenetration = activeContacts > 0 ? penetrations / activeContacts : 0;
+	for (const RollingFriction::Row& row : rolling.all()) {
+		const Vector3r torque = (row.swapped ? -1 : 1) / h * row.impulse;
+		loads[links[row.contact].interaction->getId1()].torque -= torque;
+		loads[links[row.contact].interaction->getId2()].torque += torque;
+	}
+	if (scene.trackEnergy) trackEnergy(scene);
 
 	for (std::size_t id = 0; id < loads.size(); id++) {
 		if (loads[id].force != Vector3r::Zero()) scene.forces.addForce(static_cast<int>(id), loads[id].force);

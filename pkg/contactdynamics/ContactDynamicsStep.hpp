@@ -2,6 +2,8 @@
 #pragma once
 #include "FreeMotion.hpp"
 #include "PenetrationRepair.hpp"
+#include "RollingFriction.hpp"
+#include "ShiftedContacts.hpp"
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
 #include <pkg/solver/SignoriniCoulombSolver.hpp>
@@ -29,6 +31,7 @@ struct ContactDynamicsStep {
 	int                           activeContacts  = 0; // of the last apply()
 	Real                          maxPenetration  = 0; // [m]
 	Real                          meanPenetration = 0; // [m], mean over the active contacts
+	Real                          elasticEnergy   = 0; // of compliant contacts [J], while O.trackEnergy
 
 	void collectBodies(Scene& scene, const IntegratorPlan& plan);
 	/// @param warmStart  factor for the stored impulses: ratio of time steps, or 0 to start from nothing
@@ -74,6 +77,10 @@ private:
 	void describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const;
 	void requireUsable(const Link& link, const contactdynamics::Contact& contact) const;
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;
+	Twist    atStart(int index) const;
+	Vector3r relativeVelocity(const contactdynamics::Contact& contact, const Twist& of1, const Twist& of2) const;
+	void     shiftContacts(Real warmStart);
+	void     trackEnergy(Scene& scene);
 	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
 	static void leaveOut(Link& link);
 	Real radiusOf(const Link& link) const;
@@ -89,6 +96,9 @@ private:
 	std::vector<std::vector<Interaction*>>  gathered;                // by thread
 	std::vector<Link>                       links;                   // parallel to problem.contacts once collected
 	std::vector<Load>                       loads;                   // contact force and torque by body id
+	ShiftedContacts                         shifted;
+	RollingFriction                         rolling;
+	std::vector<char>                       bonded; // by contact, while energy is tracked: a bond may break in the step
 	contactdynamics::SignoriniCoulombSolver solver;
 };
 

@@ -23,7 +23,7 @@ boost::python::dict ContactDynamicsStep::asDictionary() const
 	const std::size_t                  count = problem.contacts.size();
 	std::vector<Matrix3r>              frames(count);
 	std::vector<std::vector<int>>      contactsOf(problem.bodies.size());
-	const contactdynamics::GrainProblem& grains = problem;
+	const contactdynamics::GrainProblem  grains = shifted.asSolved(problem);
 	for (std::size_t i = 0; i < count; i++) {
 		const auto& contact = grains.contacts[i];
 		// A swapped contact stands in the problem with the opposite normal; its components stay those of the YADE interaction.
@@ -58,6 +58,14 @@ boost::python::dict ContactDynamicsStep::asDictionary() const
 				}
 			}
 		}
+		// A mortar adds to the diagonal. Cohesion and rolling friction are external to the problem, in q: so that is what u = W r + q leaves.
+		const Vector3r compliance(contact.normalCompliance, contact.tangentialCompliance, contact.tangentialCompliance);
+		row[static_cast<int>(i)].diagonal() += compliance;
+		const Vector3r gapVelocity(contact.gapVelocity, 0, 0), own = frames[i] * contact.impulse;
+		const Vector3r u = frames[i] * contact.relativeVelocity + gapVelocity + compliance.cwiseProduct(own);
+		Vector3r       left = u;
+		for (const auto& [j, W] : row)
+			left -= W * (frames[j] * grains.contacts[j].impulse);
 		for (const auto& [j, W] : row) {
 			column.append(j);
 			append(blocks, W);
@@ -66,11 +74,9 @@ boost::python::dict ContactDynamicsStep::asDictionary() const
 		rowStart.append(entries);
 
 		const Twist &of1 = free[contact.body1], &of2 = free[contact.body2];
-		const Vector3r gapVelocity(contact.gapVelocity, 0, 0);
-		append(q, Vector3r(frames[i] * (of2.velocity + of2.angularVelocity.cross(contact.arm2) + contact.imageVelocity - of1.velocity
-		                                - of1.angularVelocity.cross(contact.arm1)) + gapVelocity));
-		append(velocity, Vector3r(frames[i] * contact.relativeVelocity + gapVelocity));
-		append(impulse, Vector3r(frames[i] * contact.impulse));
+		append(q, shifted.empty() ? Vector3r(frames[i] * relativeVelocity(contact, of1, of2) + gapVelocity) : left);
+		append(velocity, u);
+		append(impulse, own);
 		friction.append(contact.friction);
 		bodies.append(boost::python::make_tuple(idOfIndex[contact.body1], idOfIndex[contact.body2]));
 	}

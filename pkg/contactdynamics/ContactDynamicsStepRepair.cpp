@@ -18,7 +18,10 @@ Real ContactDynamicsStep::radiusOf(const Link& link) const
 void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowed)
 {
 	overlaps.clear();
-	for (const Link& link : links) overlaps.push_back({link.gap, radiusOf(link)});
+	for (std::size_t i = 0; i < links.size(); i++) {
+		// The overlap of a compliant contact is its deformation, which carries its force: radius 0 leaves it alone.
+		overlaps.push_back({links[i].gap, problem.contacts[i].normalCompliance > 0 ? 0 : radiusOf(links[i])});
+	}
 	if (!repair.solve(problem, overlaps, h, rate, allowed, omp_get_max_threads())) return;
 
 	for (std::size_t index = 0; index < idOfIndex.size(); index++) {

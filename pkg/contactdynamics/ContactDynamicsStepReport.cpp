@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What ContactDynamicsEngine shows of a step in Python.
+#include "ContactDynamicsPhys.hpp"
 #include "ContactDynamicsStep.hpp"
+#include "ContactEnergy.hpp"
 #include <boost/python/tuple.hpp>
+#include <core/Scene.hpp>
 
 namespace yade {
 
@@ -33,12 +36,34 @@ boost::python::list ContactDynamicsStep::angularMomentaById() const
 		momenta[contact.body1] -= contact.arm1.cross(contact.impulse);
 		momenta[contact.body2] += contact.arm2.cross(contact.impulse);
 	}
+	for (const RollingFriction::Row& row : rolling.all()) {
+		momenta[problem.contacts[row.contact].body1] -= row.impulse;
+		momenta[problem.contacts[row.contact].body2] += row.impulse;
+	}
 	boost::python::list byId;
 	for (const BodyView& view : views) {
 		const bool own = view.state && !view.member && motions[view.index].aspherical;
 		byId.append(own ? boost::python::object(momenta[view.index]) : boost::python::object());
 	}
 	return byId;
+}
+
+void ContactDynamicsStep::trackEnergy(Scene& scene)
+{
+	ContactEnergy energy;
+	for (std::size_t i = 0; i < links.size(); i++) {
+		const contactdynamics::Contact& contact = problem.contacts[i];
+		if (contact.impulse == Vector3r::Zero() && !(links[i].phys->kn > 0 || links[i].phys->ks > 0)) continue;
+		const Vector3r start = relativeVelocity(contact, atStart(contact.body1), atStart(contact.body2));
+		energy.add(*links[i].phys, contact.normal, contact.impulse, start, contact.relativeVelocity,
+				   links[i].gap + 0.5 * h * contact.normal.dot(contact.relativeVelocity), shifted.isImpact(static_cast<int>(i)), bonded[i]);
+	}
+	for (const RollingFriction::Row& row : rolling.all()) {
+		const int one = problem.contacts[row.contact].body1, two = problem.contacts[row.contact].body2;
+		const auto spin = [&](int index) { return Vector3r(0.5 * (atStart(index).angularVelocity + problem.bodies[index].angularVelocity)); };
+		energy.addRolling(row.impulse, spin(two) - spin(one));
+	}
+	elasticEnergy = energy.report(*scene.energy, elasticEnergy);
 }
 
 } // namespace yade

@@ -39,7 +39,7 @@ SweepNorms visit(GeneralContact& c, BodyState* bodies, const Body* mobility, Ext
 	const Vector3 x = c.impulse + ahead;
 	c.direction = c.increment + ahead;
 	const Vector3 u = c.frame * (v2 - v1 + w2.cross(c.arm2) - w1.cross(c.arm1)) + c.offset;
-	const Vector3 r = c.local.solve(u - c.W * x, c.friction), dr = r - x;
+	const Vector3 r = c.local.solve(u + c.compliance.cwiseProduct(x) - c.W * x, c.friction), dr = r - x;
 	c.impulse = r;
 	c.increment = dr;
 

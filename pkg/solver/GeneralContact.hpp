@@ -14,7 +14,8 @@ struct GeneralContact {
 	Matrix3 frame;			   ///< rows n, t1, t2
 	Vector3 arm1, arm2;		   ///< [m]
 	Vector3 offset;			   ///< image velocity in the frame, plus the gap velocity on the normal [m/s]
-	Matrix3 W;				   ///< local Delassus operator [1/kg]
+	Vector3 compliance;		   ///< on the diagonal of W: what the bodies' velocities do not know [1/kg]
+	Matrix3 W;				   ///< local Delassus operator, compliance included [1/kg]
 	double friction;
 	OneContact local;
 	Vector3 impulse, increment, direction; ///< as in BallPack

@@ -97,11 +97,11 @@ GrainOperator::Sums GrainOperator::certify(std::size_t first, std::size_t last)
 		const BodyState &b1 = state[c.body1], &b2 = state[c.body2];
 		const Vector3 U = velocity(b2) + c.imageVelocity - velocity(b1) + angularVelocity(b2).cross(c.arm2) - angularVelocity(b1).cross(c.arm1);
 		c.relativeVelocity = U;
-		const double un = U.dot(c.normal) + c.gapVelocity, rn = impulses[i].dot(c.normal);
+		const double rn = impulses[i].dot(c.normal), un = U.dot(c.normal) + c.gapVelocity + c.normalCompliance * rn;
 		result.approach = std::max(result.approach, -un);
 		if (un >= 0 && rn <= 0) continue; // open and separating: F = 0
 		const double speeds = std::min(speedsAt(c), speedLimit);
-		if (c.ball) {
+		if (c.ball && !isCompliant(c)) {
 			const double Wn = b1.inverseMass + b2.inverseMass;
 			if (!(Wn > 0)) continue;
 			const double Wt = Wn + c.arm1.squaredNorm() * b1.inverseInertia + c.arm2.squaredNorm() * b2.inverseInertia;
@@ -109,9 +109,11 @@ GrainOperator::Sums GrainOperator::certify(std::size_t first, std::size_t last)
 			const auto F = naturalMap<Vector3>({rn, rt}, {un, ut}, c.friction, Wn, speeds);
 			result.residual.add(Wn * F.n * F.n + Wt * F.t.squaredNorm(), Wn * rn * rn + Wt * rt.squaredNorm());
 		} else {
-			const Matrix3 frame = contactFrame(c.normal), W = localDelassus(problem->bodies[c.body1], problem->bodies[c.body2], c, frame);
+			const Matrix3 frame = contactFrame(c.normal);
+			Matrix3 W = localDelassus(problem->bodies[c.body1], problem->bodies[c.body2], c, frame);
+			W.diagonal() += Vector3(c.normalCompliance, c.tangentialCompliance, c.tangentialCompliance);
 			if (!(W(0, 0) > 0)) continue;
-			const Vector3 r = frame * impulses[i], u = frame * U;
+			const Vector3 r = frame * impulses[i], u = frame * U + c.tangentialCompliance * r; // of u the tangents are used, of the normal un
 			const auto F = naturalMap<Eigen::Vector2d>({rn, r.tail<2>()}, {un, u.tail<2>()}, c.friction, W(0, 0), speeds);
 			const Vector3 f(F.n, F.t[0], F.t[1]);
 			result.residual.add(f.dot(W * f), r.dot(W * r));

@@ -49,7 +49,9 @@ void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id) const
 	g.arm2 = c.arm2;
 	g.offset = g.frame * c.imageVelocity;
 	g.offset[0] += c.gapVelocity;
+	g.compliance = {c.normalCompliance, c.tangentialCompliance, c.tangentialCompliance};
 	g.W = localDelassus(problem->bodies[c.body1], problem->bodies[c.body2], c, g.frame);
+	g.W.diagonal() += g.compliance;
 	g.friction = c.friction;
 	g.local = OneContact(g.W);
 	g.impulse = g.frame * impulses[id];

@@ -84,7 +84,8 @@ private:
 	std::vector<Place> place;
 	std::vector<std::int32_t> selected, colourOf, order;
 
-	bool isBall(const Contact& c) const { return c.ball && c.imageVelocity.isZero(0); }
+	static bool isCompliant(const Contact& c) { return c.normalCompliance != 0 || c.tangentialCompliance != 0; }
+	bool isBall(const Contact& c) const { return c.ball && c.imageVelocity.isZero(0) && !isCompliant(c); }
 	/// Calls job(0) ... job(count - 1) in any order; each may write only what belongs to its index.
 	template <class Job> void inRuns(std::size_t count, const Job& job)
 	{

@@ -31,8 +31,10 @@ struct Contact {
 	double friction = 0;						///< Coulomb coefficient mu >= 0
 	double gapVelocity = 0;						///< s in 0 <= U_N + s _|_ R_N >= 0: max(0,g)/h (25), g/h (24), 0 (23) [m/s]
 	Vector3 imageVelocity = Vector3::Zero();	///< added to the velocity of body 2 (periodic image), zero otherwise [m/s]
+	double normalCompliance = 0;				///< c in 0 <= U_N + s + c R_N _|_ R_N >= 0: added to the diagonal of W (mortar), >= 0 [1/kg]
+	double tangentialCompliance = 0;			///< likewise for both tangents; a contact with either takes the general solution [1/kg]
 	Vector3 impulse = Vector3::Zero();			///< in: start of the iteration (warm start or zero); out: solution, global axes [N s]
-	Vector3 relativeVelocity = Vector3::Zero(); ///< out: U at the solution, imageVelocity included, gapVelocity not, global axes [m/s]
+	Vector3 relativeVelocity = Vector3::Zero(); ///< out: U at the solution, imageVelocity included, gapVelocity and compliance not, global axes [m/s]
 	ContactStatus status = ContactStatus::none; ///< out
 };
 

@@ -34,6 +34,7 @@ void requireContacts(const GrainProblem& problem)
 			refuse(problem, i, "body index outside the " + std::to_string(count) + " bodies");
 		if (c.body1 == c.body2) refuse(problem, i, "a body cannot touch itself");
 		if (c.friction < 0) refuse(problem, i, "friction is " + std::to_string(c.friction) + ", must be >= 0");
+		if (c.normalCompliance < 0 || c.tangentialCompliance < 0) refuse(problem, i, "a compliance is negative, must be >= 0");
 		if (std::abs(c.normal.squaredNorm() - 1) > 1e-9)
 			refuse(problem, i, "the normal has length " + std::to_string(c.normal.norm()) + ", must be 1");
 	}
@@ -44,7 +45,8 @@ bool isFinite(const GrainProblem& problem)
 	double poison = 0; // zero times a finite number is zero, times anything else not a number
 	for (const Body& b : problem.bodies) poison += 0 * (b.velocity.sum() + b.angularVelocity.sum() + b.inverseMass.sum() + b.inverseInertia.sum());
 	for (const Contact& c : problem.contacts)
-		poison += 0 * (c.normal.sum() + c.arm1.sum() + c.arm2.sum() + c.imageVelocity.sum() + c.impulse.sum() + c.friction + c.gapVelocity);
+		poison += 0 * (c.normal.sum() + c.arm1.sum() + c.arm2.sum() + c.imageVelocity.sum() + c.impulse.sum() + c.friction + c.gapVelocity +
+					   c.normalCompliance + c.tangentialCompliance);
 	return poison == 0;
 }
 

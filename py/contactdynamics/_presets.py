@@ -59,7 +59,10 @@ def engines(
                 wrapper.Ig2_Facet_Sphere_ScGeom_Proximity(),
                 wrapper.Ig2_Wall_Sphere_ScGeom_Proximity(),
             ],
-            [wrapper.Ip2_FrictMat_FrictMat_ContactDynamicsPhys()],
+            [
+                wrapper.Ip2_FrictMat_FrictMat_ContactDynamicsPhys(),
+                wrapper.Ip2_ContactDynamicsMat_ContactDynamicsMat_ContactDynamicsPhys(),
+            ],
             [wrapper.Law2_ScGeom_ContactDynamicsPhys_SignoriniCoulomb()],
         ),
         wrapper.ContactDynamicsEngine(

@@ -24,9 +24,10 @@ FUNCTORS = [
     "Ig2_Facet_Sphere_ScGeom_Proximity",
     "Ig2_Wall_Sphere_ScGeom_Proximity",
     "Ip2_FrictMat_FrictMat_ContactDynamicsPhys",
+    "Ip2_ContactDynamicsMat_ContactDynamicsMat_ContactDynamicsPhys",
     "Law2_ScGeom_ContactDynamicsPhys_SignoriniCoulomb",
 ]
-CLASSES = FUNCTORS + ["ContactDynamicsEngine", "ContactDynamicsPhys"]
+CLASSES = FUNCTORS + ["ContactDynamicsEngine", "ContactDynamicsMat", "ContactDynamicsPhys"]
 DEFAULTS = {
     "tolerance": 1e-4,
     "maxIterations": 1000,

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""ContactDynamicsMat in YADE: bad values, rules of pairs, saving, threads, and soft laws beside."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from yade import MatchMaker, O, Vector3
+
+import laws_cases
+from contactdynamics import ContactDynamicsMat
+from scenes import G, contact, engine, equip, floor, grain, isolated, law, state, steps, vec
+
+COEFFICIENTS = ["normalRestitution", "tangentialRestitution"]
+OTHERS = ["restitutionVelocity", "cohesionForce", "cohesionStress", "kn", "ks", "normalDamping", "rollingFriction"]
+OTHERS += ["twistingFriction", "staticFrictionAngle"]
+
+
+@pytest.mark.parametrize("name", COEFFICIENTS + OTHERS)
+def test_bad_values_of_the_material(name: str) -> None:
+    """Refused at once, and the last good value stays."""
+    made = ContactDynamicsMat()
+    assert getattr(made, name) == 0
+    setattr(made, name, 0.25)
+    bad = [-0.1, float("nan"), float("inf")] + ([1.01] if name in COEFFICIENTS else [])
+    for value in bad + ([math.pi / 2] if name == "staticFrictionAngle" else []):
+        with pytest.raises(ValueError, match=f"ContactDynamicsMat.{name} = .*must"):
+            setattr(made, name, value)
+        assert getattr(made, name) == 0.25
+        with pytest.raises(ValueError, match=name):
+            ContactDynamicsMat(**{name: value})
+
+
+@pytest.mark.parametrize(
+    "attributes, words",
+    [
+        (dict(cohesionStress=10, frictionAngle=0), "cohesionStress.*frictionAngle"),
+        (dict(kn=1e6, normalRestitution=0.5), "normalRestitution.*kn"),
+        (dict(ks=1e6, tangentialRestitution=0.5), "tangentialRestitution.*ks"),
+    ],
+)
+def test_contradictions_of_a_pair_name_the_contact(attributes: dict, words: str) -> None:
+    law(**attributes)
+    floor()
+    grain((0, 0, 1))
+    equip(1e-3)
+    with pytest.raises(RuntimeError, match=f"#0\\+#1.*{words}"):
+        O.step()
+
+
+@pytest.mark.parametrize("name, value", [("normalRestitution", -1), ("kn", float("nan")), ("cohesionForce", -3.0)])
+def test_bad_values_of_a_contact(name: str, value: float) -> None:
+    law(normalRestitution=0.5)
+    floor()
+    grain((0, 0, 1))
+    equip(1e-3)
+    O.step()
+    setattr(contact(0, 1).phys, name, value)
+    with pytest.raises(RuntimeError, match=f"#0\\+#1.*{name}"):
+        O.step()
+
+
+@pytest.mark.parametrize("name", COEFFICIENTS + ["restitutionVelocity", "cohesionForce", "kn", "ks", "normalDamping"])
+def test_rules_of_pairs(name: str) -> None:
+    """Default rule, and a MatchMaker of one's own."""
+    mortar = {"kn": 1e6} if name == "normalDamping" else {}
+    one, two = law(**{name: 0.2, **mortar}), law(**{name: 0.6, **mortar})
+    rule = {"restitutionVelocity": 0.6, "kn": 0.15, "ks": 0.15, "normalDamping": 0.15}.get(name, 0.2)
+    for matched in (False, True):
+        O.interactions.clear()
+        O.bodies.clear()
+        floor(material=one)
+        grain((0, 0, 1), material=two)
+        equip(1e-3)
+        if matched:
+            functor = engine("InteractionLoop").physDispatcher.functors[1]
+            setattr(functor, name, MatchMaker(matches=((one.id, two.id, 0.77),)))
+        O.step()
+        assert getattr(contact(0, 1).phys, name) == pytest.approx(0.77 if matched else rule)
+
+
+@pytest.mark.parametrize("kind", sorted(laws_cases.LAWS))
+def test_same_bits_with_two_threads_and_across_a_file(kind: str, tmp_path) -> None:
+    isolated("yade", "laws_cases", "straight", kind, tmp_path / "one")
+    expected = (tmp_path / "one").read_text()
+    isolated("yade", "laws_cases", "straight", kind, tmp_path / "two", threads=2)
+    assert (tmp_path / "two").read_text() == expected
+    isolated("yade", "laws_cases", "halves", kind, tmp_path / "half.yade.gz", tmp_path / "three")
+    assert (tmp_path / "three").read_text() == expected
+
+
+def test_warm_start_and_bond_survive_a_change_of_the_step() -> None:
+    law(cohesionForce=1000)
+    one, two = grain((0, 0, 0), fixed=True), grain((0, 0, 2))
+    equip(1e-3, gravity=(0, 0, 0), tolerance=1e-12)
+    O.forces.setPermF(two, Vector3(0, 0, 900))
+    steps(3)
+    O.dt = 3e-4
+    steps(3)
+    assert contact(one, two).phys.bond == "intact"
+    assert vec(contact(one, two).phys.normalForce)[2] == pytest.approx(-900, rel=1e-9)
+
+
+def test_capillary_law_beside() -> None:
+    """YADE's own capillary bridge between two soft grains; a rigid grain rests beside them, and bits agree without it."""
+    from yade import Ip2_ViscElCapMat_ViscElCapMat_ViscElCapPhys, Law2_ScGeom_ViscElCapPhys_Basic, ViscElCapMat
+
+    tracks = []
+    for rigid in (True, False):
+        O.reset()
+        wet = ViscElCapMat(kn=1e6, ks=1e6, cn=1e3, cs=1e3, frictionAngle=0.3, density=2600, Capillar=True)
+        wet.Vb, wet.gamma, wet.theta, wet.CapillarType = 1e-3, 50.0, 0.0, "Willett_numeric"
+        number = O.materials.append(wet)
+        grain((0, 0, 10), fixed=True, material=O.materials[number])
+        hung = grain((0, 0, 8.001), material=O.materials[number])
+        if rigid:
+            plate = floor(material=law(normalRestitution=0.5))
+            ball = grain((5, 0, 1))
+            ball_material = O.bodies[plate].material
+            O.bodies[ball].material = ball_material
+        equip(1e-4, gravity=(0, 0, 0))
+        loop = engine("InteractionLoop")
+        loop.physDispatcher.functors = loop.physDispatcher.functors + [Ip2_ViscElCapMat_ViscElCapMat_ViscElCapPhys()]
+        loop.lawDispatcher.functors = loop.lawDispatcher.functors + [Law2_ScGeom_ViscElCapPhys_Basic()]
+        steps(100)
+        kinds = {type(i.phys).__name__ for i in O.interactions if i.isReal}
+        assert "ViscElCapPhys" in kinds and ("ContactDynamicsPhys" in kinds) == rigid
+        tracks.append(tuple(state(hung).vel) + tuple(state(hung).pos))
+    assert tracks[0] == tracks[1]
