@@ -5,8 +5,8 @@
 
 namespace yade {
 
-/// Compares the members that Python does not show as plain data with what it tells of them: on temporary objects, and on the scene. Appends one sentence
-/// per disagreement.
+/// Compares the members that Python does not show as plain data with what it tells of them: on temporary objects, and on the scene. Appends one
+/// sentence per disagreement.
 void compareHiddenMembers(boost::python::list& disagreements);
 
 } // namespace yade

@@ -5,8 +5,9 @@
 
 namespace yade {
 
-/// Compares a table as compiledLayout makes it, and the members that Python does not show, with the classes of the running YADE. Returns one sentence per
-/// disagreement, naming class, member, what is expected and what is found; empty if all is well. Reads, and makes temporary objects; changes nothing.
+/// Compares a table as compiledLayout makes it, and the members that Python does not show, with the classes of the running YADE. Returns one sentence
+/// per disagreement, naming class, member, what is expected and what is found; empty if all is well. Reads, and makes temporary objects; changes
+/// nothing.
 boost::python::list layoutDisagreements(const boost::python::dict& expected);
 
 } // namespace yade

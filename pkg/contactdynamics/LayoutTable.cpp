@@ -28,33 +28,33 @@ namespace py = boost::python;
 namespace yade {
 namespace {
 
-	/// Collects the rows of one class.
-	class Rows {
-		py::dict description, members;
+/// Collects the rows of one class.
+class Rows {
+	py::dict description, members;
 
-	public:
-		Rows(py::dict& table, const char* className)
-		{
-			description["members"] = members;
-			table[className]       = description;
-		}
+public:
+	Rows(py::dict& table, const char* className)
+	{
+		description["members"] = members;
+		table[className] = description;
+	}
 
-		template <class Class> Rows& size()
-		{
-			description["size"] = sizeof(Class);
-			return *this;
-		}
+	template <class Class> Rows& size()
+	{
+		description["size"] = sizeof(Class);
+		return *this;
+	}
 
-		template <class Class, class Member> Rows& member(const char* name, Member Class::*which)
-		{
-			// A pointer to a data member is its offset (Itanium C++ ABI, 2.3.1). `offsetof` is not for classes with virtual functions.
-			std::ptrdiff_t offset;
-			static_assert(sizeof offset == sizeof which);
-			std::memcpy(&offset, &which, sizeof offset);
-			members[name] = py::make_tuple(offset, boost::core::demangle(typeid(py::detail::member<Member, Class>).name()));
-			return *this;
-		}
-	};
+	template <class Class, class Member> Rows& member(const char* name, Member Class::*which)
+	{
+		// A pointer to a data member is its offset (Itanium C++ ABI, 2.3.1). `offsetof` is not for classes with virtual functions.
+		std::ptrdiff_t offset;
+		static_assert(sizeof offset == sizeof which);
+		std::memcpy(&offset, &which, sizeof offset);
+		members[name] = py::make_tuple(offset, boost::core::demangle(typeid(py::detail::member<Member, Class>).name()));
+		return *this;
+	}
+};
 
 } // namespace
 
@@ -68,7 +68,7 @@ py::dict compiledLayout()
 	Rows(table, "Engine") ROW(Engine, dead) ROW(Engine, ompThreads) ROW(Engine, label) ROW(Engine, timingDeltas);
 	Rows(table, "GlobalEngine").size<GlobalEngine>();
 	Rows(table, "NewtonIntegrator") ROW(NewtonIntegrator, damping) ROW(NewtonIntegrator, gravity) ROW(NewtonIntegrator, exactAsphericalRot)
-	        ROW(NewtonIntegrator, prevVelGrad) ROW(NewtonIntegrator, mask);
+			ROW(NewtonIntegrator, prevVelGrad) ROW(NewtonIntegrator, mask);
 
 	Rows(table, "Functor") ROW(Functor, timingDeltas) ROW(Functor, label);
 	Rows(table, "BoundFunctor").size<BoundFunctor>();
@@ -78,15 +78,17 @@ py::dict compiledLayout()
 	Rows(table, "MatchMaker").size<MatchMaker>() ROW(MatchMaker, matches) ROW(MatchMaker, algo) ROW(MatchMaker, val);
 
 	Rows(table, "Scene") ROW(Scene, dt) ROW(Scene, iter) ROW(Scene, subStep) ROW(Scene, time) ROW(Scene, isPeriodic) ROW(Scene, trackEnergy)
-	        ROW(Scene, doSort) ROW(Scene, subdomain);
+			ROW(Scene, doSort) ROW(Scene, subdomain);
 	Rows(table, "Cell") ROW(Cell, refHSize) ROW(Cell, prevHSize) ROW(Cell, nextVelGrad) ROW(Cell, prevVelGrad) ROW(Cell, homoDeform)
-	        ROW(Cell, velGradChanged) ROW(Cell, flipFlippable);
+			ROW(Cell, velGradChanged) ROW(Cell, flipFlippable);
 	Rows(table, "Interaction") ROW(Interaction, isActive) ROW(Interaction, id1) ROW(Interaction, id2) ROW(Interaction, iterMadeReal)
-	        ROW(Interaction, geom) ROW(Interaction, phys) ROW(Interaction, cellDist) ROW(Interaction, iterBorn);
-	Rows(table, "Body").size<Body>() ROW(Body, id) ROW(Body, groupMask) ROW(Body, flags) ROW(Body, subdomain) ROW(Body, material) ROW(Body, state)
-	        ROW(Body, shape) ROW(Body, bound) ROW(Body, clumpId) ROW(Body, iterBorn) ROW(Body, timeBorn);
-	Rows(table, "State").size<State>() ROW(State, se3) ROW(State, vel) ROW(State, mass) ROW(State, angVel) ROW(State, angMom) ROW(State, inertia)
-	        ROW(State, refPos) ROW(State, refOri) ROW(State, isDamped) ROW(State, densityScaling);
+			ROW(Interaction, geom) ROW(Interaction, phys) ROW(Interaction, cellDist) ROW(Interaction, iterBorn);
+	Rows(table, "Body")
+			.size<Body>() ROW(Body, id) ROW(Body, groupMask) ROW(Body, flags) ROW(Body, subdomain) ROW(Body, material) ROW(Body, state)
+					ROW(Body, shape) ROW(Body, bound) ROW(Body, clumpId) ROW(Body, iterBorn) ROW(Body, timeBorn);
+	Rows(table, "State")
+			.size<State>() ROW(State, se3) ROW(State, vel) ROW(State, mass) ROW(State, angVel) ROW(State, angMom) ROW(State, inertia)
+					ROW(State, refPos) ROW(State, refOri) ROW(State, isDamped) ROW(State, densityScaling);
 
 	Rows(table, "Material") ROW(Material, id) ROW(Material, label) ROW(Material, density);
 	Rows(table, "ElastMat") ROW(ElastMat, young) ROW(ElastMat, poisson);
@@ -101,7 +103,7 @@ py::dict compiledLayout()
 	Rows(table, "Aabb").size<Aabb>();
 
 	Rows(table, "GenericSpheresContact") ROW(GenericSpheresContact, normal) ROW(GenericSpheresContact, contactPoint) ROW(GenericSpheresContact, refR1)
-	        ROW(GenericSpheresContact, refR2);
+			ROW(GenericSpheresContact, refR2);
 	Rows(table, "ScGeom").size<ScGeom>() ROW(ScGeom, penetrationDepth) ROW(ScGeom, shearInc);
 	Rows(table, "NormPhys") ROW(NormPhys, kn) ROW(NormPhys, normalForce);
 	Rows(table, "NormShearPhys") ROW(NormShearPhys, ks) ROW(NormShearPhys, shearForce);

@@ -16,57 +16,52 @@ namespace py = boost::python;
 namespace yade {
 namespace {
 
-	/// The names a library has announced to the class factory, taken out of it for as long as this object lives.
-	class SetAside {
-		std::list<std::string>& place;
-		std::list<std::string>  names;
+/// The names a library has announced to the class factory, taken out of it for as long as this object lives.
+class SetAside {
+	std::list<std::string>& place;
+	std::list<std::string> names;
 
-	public:
-		explicit SetAside(std::list<std::string>& place)
-		        : place(place)
-		{
-			names.swap(place);
-		}
-		~SetAside()
-		{
-			place.splice(place.end(), names);
-			place.sort();
-			place.unique();
-		}
-		SetAside(const SetAside&)            = delete;
-		SetAside& operator=(const SetAside&) = delete;
-
-		std::list<std::string> unknownTo(const Omega& omega) const
-		{
-			const auto&            known = omega.getDynlibsDescriptor();
-			std::list<std::string> unknown;
-			for (const std::string& name : names)
-				if (known.find(name) == known.end()) unknown.push_back(name);
-			return unknown;
-		}
-	};
-
-	/// Makes the classes of this library part of the running YADE, as if it had been there from the start: they appear in `yade.wrapper`, their base
-	/// classes are known, archives can hold them. Returns their names, also if called again.
-	///
-	/// `yade.boot.initialize` with the path of this library would do it too, but throws away all scenes and registers YADE's 370 classes again.
-	/// So Omega gets to see the new names only, and the old ones are put back afterwards, also when a registration throws.
-	py::list registerClasses()
+public:
+	explicit SetAside(std::list<std::string>& place) : place(place) { names.swap(place); }
+	~SetAside()
 	{
-		static std::list<std::string> ours;
-		if (ours.empty()) {
-			Omega&         omega   = Omega::instance();
-			ClassFactory&  factory = ClassFactory::instance();
-			const SetAside all(factory.pluginClasses);
-			factory.pluginClasses = all.unknownTo(omega);
-			if (!factory.pluginClasses.empty()) omega.loadPlugins({});
-			ours = factory.pluginClasses;
-		}
-		py::list names;
-		for (const std::string& name : ours)
-			names.append(name);
-		return names;
+		place.splice(place.end(), names);
+		place.sort();
+		place.unique();
 	}
+	SetAside(const SetAside&) = delete;
+	SetAside& operator=(const SetAside&) = delete;
+
+	std::list<std::string> unknownTo(const Omega& omega) const
+	{
+		const auto& known = omega.getDynlibsDescriptor();
+		std::list<std::string> unknown;
+		for (const std::string& name : names)
+			if (known.find(name) == known.end()) unknown.push_back(name);
+		return unknown;
+	}
+};
+
+/// Makes the classes of this library part of the running YADE, as if it had been there from the start: they appear in `yade.wrapper`, their base
+/// classes are known, archives can hold them. Returns their names, also if called again.
+///
+/// `yade.boot.initialize` with the path of this library would do it too, but throws away all scenes and registers YADE's 370 classes again.
+/// So Omega gets to see the new names only, and the old ones are put back afterwards, also when a registration throws.
+py::list registerClasses()
+{
+	static std::list<std::string> ours;
+	if (ours.empty()) {
+		Omega& omega = Omega::instance();
+		ClassFactory& factory = ClassFactory::instance();
+		const SetAside all(factory.pluginClasses);
+		factory.pluginClasses = all.unknownTo(omega);
+		if (!factory.pluginClasses.empty()) omega.loadPlugins({});
+		ours = factory.pluginClasses;
+	}
+	py::list names;
+	for (const std::string& name : ours) names.append(name);
+	return names;
+}
 
 } // namespace
 } // namespace yade

@@ -14,7 +14,7 @@ solve  Solves each contact problem (FCLIB, HDF5) from zero impulses, and prints 
   --tolerance T        bound on the error at which to stop, > 0 (default 1e-4)
   --max-iterations N   sweeps allowed, >= 0 (default 100000)
   --threads K          >= 1 (default 1)
-  --acceleration A     none (plain nonlinear Gauss-Seidel) or conjugate (default)
+  --acceleration A     none (plain nonlinear Gauss-Seidel) or momentum (default)
   --json OUT           also write the results as a list of {"problem", "dimension", "contacts", "tolerance", "iterations", "seconds", "error", "converged"}
   --write FOLDER       also write each problem, reduced to local form, with the solution found, to FOLDER/NAME.hdf5
 info   Says what is in each file.
@@ -38,8 +38,8 @@ template <class Number> Number number(const std::string& option, const std::stri
 Acceleration accelerationOf(const std::string& name)
 {
 	if (name == "none") return Acceleration::none;
-	if (name == "conjugate") return Acceleration::conjugate;
-	throw UsageError("--acceleration is '" + name + "', must be none or conjugate");
+	if (name == "momentum") return Acceleration::momentum;
+	throw UsageError("--acceleration is '" + name + "', must be none or momentum");
 }
 
 } // namespace

@@ -3,12 +3,27 @@
 #include "Problem.hpp"
 #include "Reduction.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
 namespace contactdynamics::fclib {
 
 namespace {
+
+/// libfclib deletes what a problem holds, but not the problem.
+struct Delete {
+	void operator()(fclib_local* problem) const
+	{
+		fclib_delete_local(problem);
+		std::free(problem);
+	}
+	void operator()(fclib_global* problem) const
+	{
+		fclib_delete_global(problem);
+		std::free(problem);
+	}
+};
 
 /// Triplets: libfclib's header calls p the rows and i the columns; the files that there are, written with CSparse, have it the other way round.
 Sparse sparse(const fclib_matrix& from)
@@ -31,7 +46,7 @@ std::vector<double> frictionOf(const double* mu, int components, int dimension) 
 
 void readLocal(const std::string& path, Problem& problem)
 {
-	const std::unique_ptr<fclib_local, void (*)(fclib_local*)> file(fclib_read_local(path.c_str()), fclib_delete_local);
+	const std::unique_ptr<fclib_local, Delete> file(fclib_read_local(path.c_str()));
 	if (!file) throw FileError(path + ": libfclib cannot read /fclib_local");
 	Reduced reduced{sparse(*file->W), vector(file->q, file->W->m)};
 	if (file->V) {
@@ -50,7 +65,7 @@ void readLocal(const std::string& path, Problem& problem)
 
 void readGlobal(const std::string& path, Problem& problem)
 {
-	const std::unique_ptr<fclib_global, void (*)(fclib_global*)> file(fclib_read_global(path.c_str()), fclib_delete_global);
+	const std::unique_ptr<fclib_global, Delete> file(fclib_read_global(path.c_str()));
 	if (!file) throw FileError(path + ": libfclib cannot read /fclib_global");
 	Sparse K = sparse(*file->M), H = sparse(*file->H);
 	Eigen::VectorXd c = vector(file->f, K.rows());

@@ -36,6 +36,8 @@ const char* verdict(const Result& result)
 		return "not converged";
 	case SolveStatus::notFinite:
 		return "not finite";
+	case SolveStatus::unbounded:
+		return "no solution: impulses grow without bound";
 	}
 	return "unknown";
 }

@@ -24,7 +24,6 @@ public:
 	{
 		const std::size_t count = problem.contacts();
 		diagonal.resize(count);
-		local.resize(count);
 		impulse.resize(count);
 		increment.assign(count, Vector::Zero());
 		direction.assign(count, Vector::Zero());
@@ -33,7 +32,6 @@ public:
 				if (std::size_t(problem.column[k]) == i) diagonal[i] = block(k);
 			// The visit works with the increments of u, so that a symmetric local operator leaves the solution of the whole as it is.
 			diagonal[i] = 0.5 * (diagonal[i] + diagonal[i].transpose()).eval();
-			local[i] = Local(diagonal[i]);
 			impulse[i] = projected({problem.impulse[D * i], at(problem.impulse, i).template tail<D - 1>()}, problem.friction[i]);
 		}
 	}
@@ -43,6 +41,7 @@ public:
 
 	SweepNorms sweep(Extrapolation by)
 	{
+		prepare();
 		SweepNorms norms;
 		for (std::size_t i = 0; i < impulse.size(); ++i) {
 			const Vector ahead = by.relax * increment[i] + by.momentum * direction[i];
@@ -85,8 +84,9 @@ public:
 		return scale > 2.2e-16 ? std::sqrt(error2) / scale : std::sqrt(error2);
 	}
 
-	void finish(SolveReport& report) const
+	void finish(SolveReport& report)
 	{
+		if constexpr (D == 2) prepare();
 		problem.velocity.resize(problem.q.size());
 		for (std::size_t i = 0; i < impulse.size(); ++i) {
 			const Vector u = velocityAt(i);
@@ -96,6 +96,44 @@ public:
 			report.activeContacts += impulse[i][0] > 0;
 			if constexpr (D == 2) report.ambiguousContacts += !local[i].isUnique(problem.friction[i]);
 		}
+	}
+
+	/// Whether the impulses have grown without stopping the approach: they are a thousand times those that would stop each contact alone, and more
+	/// than half of the approach is left (both in the norm of 1 / W_NN). Where contacts press one body from opposite sides there is no solution, but
+	/// any residual relative to the impulses falls below any tolerance when these go to infinity.
+	bool runsAway() const
+	{
+		double approach = 0, free = 0, stored = 0;
+		for (std::size_t i = 0; i < impulse.size(); ++i) {
+			const double Wnn = diagonal[i](0, 0), u = std::min(0.0, velocityAt(i)[0]), q = std::min(0.0, problem.q[D * i]);
+			if (!(Wnn > 0)) continue;
+			approach += u * u / Wnn;
+			free += q * q / Wnn;
+			stored += Wnn * impulse[i][0] * impulse[i][0];
+		}
+		return free > 0 && approach > 0.25 * free && stored > 1e6 * free;
+	}
+
+	const std::vector<Vector>& impulses() const { return impulse; }
+
+	/// Continues from these impulses, brought into their cones, without momentum.
+	void setImpulses(const std::vector<Vector>& given)
+	{
+		for (std::size_t i = 0; i < impulse.size(); ++i) {
+			impulse[i] = projected({given[i][0], given[i].template tail<D - 1>()}, problem.friction[i]);
+			increment[i].setZero();
+			direction[i].setZero();
+		}
+	}
+
+	/// The same without a look at the cones: for trial points of a line search.
+	void setRaw(const std::vector<Vector>& given) { impulse = given; }
+
+	/// u = W r + q [m/s] at the present impulses.
+	void velocities(std::vector<Vector>& u) const
+	{
+		u.resize(impulse.size());
+		for (std::size_t i = 0; i < impulse.size(); ++i) u[i] = velocityAt(i);
 	}
 
 	/// Starts from the impulses as they are, also outside their cones: for residualOf().
@@ -110,6 +148,14 @@ private:
 	std::vector<Block> diagonal;
 	std::vector<Local> local;
 	std::vector<Vector> impulse, increment, direction; // as in BallPack
+
+	/// The eigenvectors of the local operators, when the first visit needs them: a start that solves the problem does without.
+	void prepare()
+	{
+		if (local.size() == diagonal.size()) return;
+		local.clear();
+		for (const Block& W : diagonal) local.emplace_back(W);
+	}
 
 	Block block(int k) const { return Eigen::Map<const Eigen::Matrix<double, D, D, Eigen::RowMajor>>(&problem.blocks[D * D * k]); }
 	Eigen::Map<const Vector> at(const std::vector<double>& values, std::size_t i) const { return Eigen::Map<const Vector>(&values[D * i]); }
@@ -128,8 +174,13 @@ private:
 		for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k) {
 			const double* w = &problem.blocks[D * D * k];
 			const Vector& r = impulse[problem.column[k]];
-			for (int row = 0; row < D; ++row)
-				for (int col = 0; col < D; ++col) u[row] += w[D * row + col] * r[col];
+			// The products of a block are added up before they meet u: one addition a block in the chain that the processor waits for.
+			for (int row = 0; row < D; ++row) {
+				if constexpr (D == 2)
+					u[row] += w[D * row] * r[0] + w[D * row + 1] * r[1];
+				else
+					u[row] += (w[D * row] * r[0] + w[D * row + 1] * r[1]) + w[D * row + 2] * r[2];
+			}
 		}
 		return u;
 	}

@@ -2,7 +2,7 @@
 #include "BlockProblem.hpp"
 
 #include "BlockOperator.hpp"
-#include "SignoriniCoulombLoop.hpp"
+#include "BlockSolver.hpp"
 
 #include <stdexcept>
 #include <string>
@@ -43,20 +43,6 @@ bool allFinite(const std::vector<double>& values)
 	double poison = 0;
 	for (const double value : values) poison += 0 * value;
 	return poison == 0;
-}
-
-template <int D> SolveReport solveBlocks(BlockProblem& problem, const SolverOptions& options, Measure measure)
-{
-	SolveReport report;
-	BlockOperator<D> blocks(problem, measure);
-	const LoopResult result = signoriniCoulombLoop(blocks, options);
-	report.iterations = result.iterations;
-	report.residual = result.residual;
-	report.status = SolveStatus::notFinite;
-	if (!std::isfinite(result.residual)) return report;
-	blocks.finish(report);
-	report.status = result.residual <= options.tolerance ? SolveStatus::converged : SolveStatus::maxIterations;
-	return report;
 }
 
 template <int D> double residualOfBlocks(BlockProblem& problem, Measure measure)

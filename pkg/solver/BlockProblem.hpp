@@ -34,7 +34,8 @@ enum class Measure {
 /// Residual of the impulses of a problem (the velocities are computed from them) in either measure.
 double residualOf(const BlockProblem& problem, Measure measure);
 
-/// Solves in place, with the loop and the acceleration of SignoriniCoulombSolver, on one thread.
+/// Solves in place, with the loop and the acceleration of SignoriniCoulombSolver and, where that stalls, Newton's method (BlockSolver.hpp), on one
+/// thread. A status other than converged does not prove that there is no solution; the impulses returned are then the best that were found.
 /// @throws std::invalid_argument  sizes that do not fit each other, a column out of range, a row without diagonal block, friction negative,
 ///                                options out of range. The message names the contact and the value.
 SolveReport solve(BlockProblem& problem, const SolverOptions& options, Measure measure = Measure::naturalMap);

@@ -9,16 +9,37 @@
 
 namespace contactdynamics {
 
+namespace {
+
+void finishContact(Contact& c, const Vector3& impulse)
+{
+	c.impulse = impulse;
+	const double rn = impulse.dot(c.normal);
+	if (!(rn > 0)) {
+		c.status = ContactStatus::none;
+		return;
+	}
+	// The projection on the cone leaves round-off only: a friction below its limit by more than that sticks.
+	c.status = (impulse - rn * c.normal).norm() < (1 - 1e-9) * c.friction * rn ? ContactStatus::sticking : ContactStatus::sliding;
+}
+
+} // namespace
+
 void GrainOperator::collectImpulses()
 {
 	const auto& contacts = problem->contacts;
-	for (const BallPack& p : packs)
+	inRuns(packs.size(), [&](std::size_t i) {
+		const BallPack& p = packs[i];
 		for (int k = 0; k < 4; ++k) {
 			if (p.id[k] < 0) continue;
 			const Contact& c = contacts[p.id[k]];
 			impulses[p.id[k]] = insideCone({p.impulse[0][k], p.impulse[1][k], p.impulse[2][k]}, c.normal, c.friction);
 		}
-	for (const GeneralContact& g : generals) impulses[g.id] = insideCone(g.frame.transpose() * g.impulse, contacts[g.id].normal, g.friction);
+	});
+	inRuns(generals.size(), [&](std::size_t i) {
+		const GeneralContact& g = generals[i];
+		impulses[g.id] = insideCone(g.frame.transpose() * g.impulse, contacts[g.id].normal, g.friction);
+	});
 }
 
 void GrainOperator::addImpulse(const Contact& c, const Vector3& impulse)
@@ -46,18 +67,26 @@ double GrainOperator::speedsAt(const Contact& c) const
 void GrainOperator::freeVelocities()
 {
 	const auto& bodies = problem->bodies;
-	for (std::size_t i = 0; i < bodies.size(); ++i) {
+	inRuns(bodies.size(), [&](std::size_t i) {
 		velocity(state[i]) = bodies[i].velocity;
 		angularVelocity(state[i]) = bodies[i].angularVelocity;
-	}
+	});
 }
 
-/// Velocities = free velocities + M^-1 H r: no drift of the sweeps is left in them.
+/// Velocities = free velocities + M^-1 H r: no drift of the sweeps is left in them. Colour by colour, so that no two threads meet at a body.
 void GrainOperator::rebuildVelocities()
 {
 	freeVelocities();
-	for (std::size_t i = 0; i < impulses.size(); ++i)
-		if (!impulses[i].isZero(0)) addImpulse(problem->contacts[i], impulses[i]);
+	const auto add = [this](std::int32_t id) {
+		if (id >= 0 && !impulses[id].isZero(0)) addImpulse(problem->contacts[id], impulses[id]);
+	};
+	for (const Group& group : groups)
+		crew->run(group.lastChunk - group.firstChunk, [&](std::size_t k) {
+			const Chunk& chunk = chunks[group.firstChunk + k];
+			for (std::size_t i = chunk.firstPack; i < chunk.firstPack + chunk.packs; ++i)
+				for (const std::int32_t id : packs[i].id) add(id);
+			for (std::size_t i = chunk.firstGeneral; i < chunk.firstGeneral + chunk.generals; ++i) add(generals[i].id);
+		});
 }
 
 GrainOperator::Sums GrainOperator::certify(std::size_t first, std::size_t last)
@@ -71,7 +100,7 @@ GrainOperator::Sums GrainOperator::certify(std::size_t first, std::size_t last)
 		const double rn = impulses[i].dot(c.normal), un = U.dot(c.normal) + c.gapVelocity + c.normalCompliance * rn;
 		result.approach = std::max(result.approach, -un);
 		if (un >= 0 && rn <= 0) continue; // open and separating: F = 0
-		const double speeds = speedsAt(c);
+		const double speeds = std::min(speedsAt(c), speedLimit);
 		if (c.ball && !isCompliant(c)) {
 			const double Wn = b1.inverseMass + b2.inverseMass;
 			if (!(Wn > 0)) continue;
@@ -98,8 +127,8 @@ double GrainOperator::certificate()
 	collectImpulses();
 	rebuildVelocities();
 	const std::size_t count = problem->contacts.size();
-	sums.assign((count + contactsPerRun - 1) / contactsPerRun, Sums{});
-	crew->run(sums.size(), [&](std::size_t k) { sums[k] = certify(k * contactsPerRun, std::min(count, (k + 1) * contactsPerRun)); });
+	sums.assign((count + perRun - 1) / perRun, Sums{});
+	crew->run(sums.size(), [&](std::size_t k) { sums[k] = certify(k * perRun, std::min(count, (k + 1) * perRun)); });
 	Sums total;
 	for (const Sums& one : sums) {
 		total.residual.add(one.residual);
@@ -111,26 +140,15 @@ double GrainOperator::certificate()
 
 void GrainOperator::finish(SolveReport& report)
 {
-	crew.reset();
 	auto& bodies = problem->bodies;
-	for (std::size_t i = 0; i < bodies.size(); ++i) {
+	inRuns(bodies.size(), [&](std::size_t i) {
 		bodies[i].velocity = velocity(state[i]);
 		bodies[i].angularVelocity = angularVelocity(state[i]);
-	}
+	});
 	report.maxApproachSpeed = maxApproachSpeed;
-	report.activeContacts = 0;
-	for (std::size_t i = 0; i < impulses.size(); ++i) {
-		Contact& c = problem->contacts[i];
-		c.impulse = impulses[i];
-		const double rn = c.impulse.dot(c.normal);
-		if (!(rn > 0)) {
-			c.status = ContactStatus::none;
-			continue;
-		}
-		++report.activeContacts;
-		// The projection on the cone leaves round-off only: a friction below its limit by more than that sticks.
-		c.status = (c.impulse - rn * c.normal).norm() < (1 - 1e-9) * c.friction * rn ? ContactStatus::sticking : ContactStatus::sliding;
-	}
+	inRuns(impulses.size(), [this](std::size_t i) { finishContact(problem->contacts[i], impulses[i]); });
+	report.activeContacts =
+			int(std::count_if(problem->contacts.begin(), problem->contacts.end(), [](const Contact& c) { return c.status != ContactStatus::none; }));
 }
 
 } // namespace contactdynamics

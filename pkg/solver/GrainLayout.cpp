@@ -88,15 +88,12 @@ void GrainOperator::layOut(const std::vector<std::int32_t>& ids)
 	for (int colour = 0; colour <= Colouring::overflow; ++colour) {
 		const std::size_t balls = count[2 * colour], first = count[2 * colour + 1], last = count[2 * colour + 2];
 		if (balls == last) continue;
-		const int lanes = colour == Colouring::overflow ? 1 : 4; // contacts of the overflow colour do share bodies
+		const std::size_t lanes = colour == Colouring::overflow ? 1 : 4; // contacts of the overflow colour do share bodies
 		const std::size_t firstPack = packs.size(), firstGeneral = generals.size(), firstChunk = chunks.size();
-		for (std::size_t i = balls; i < first; ++i) {
-			const int lane = int((i - balls) % lanes);
-			if (lane == 0) packs.push_back(empty);
-			putBall(packs.back(), lane, order[i]);
-		}
+		packs.resize(firstPack + (first - balls + lanes - 1) / lanes, empty);
+		inRuns(first - balls, [&](std::size_t i) { putBall(packs[firstPack + i / lanes], int(i % lanes), order[balls + i]); });
 		generals.resize(firstGeneral + last - first);
-		for (std::size_t i = first; i < last; ++i) putGeneral(generals[firstGeneral + i - first], order[i]);
+		inRuns(last - first, [&](std::size_t i) { putGeneral(generals[firstGeneral + i], order[first + i]); });
 		const std::size_t packCount = packs.size() - firstPack, generalCount = generals.size() - firstGeneral;
 		if (colour == Colouring::overflow)
 			chunks.push_back({firstPack, packCount, firstGeneral, generalCount});

@@ -10,7 +10,6 @@ namespace contactdynamics {
 
 namespace {
 
-constexpr std::size_t bodiesPerRun = 1024;
 constexpr std::size_t worthThreads = 3000; // awake contacts; below, handing out the colours costs more than it brings
 
 } // namespace
@@ -25,23 +24,35 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, int maxThreads)
 	const auto& contacts = problem->contacts;
 	state.resize(bodies.size() + 1);
 	movable.resize(bodies.size());
-	for (std::size_t i = 0; i < bodies.size(); ++i) {
+	crew.emplace(contacts.size() >= worthThreads ? maxThreads : 1);
+	inRuns(bodies.size(), [&](std::size_t i) {
 		movable[i] = !bodies[i].inverseMass.isZero(0) || !bodies[i].inverseInertia.isZero(0);
 		state[i].inverseMass = bodies[i].inverseMass[0];
 		state[i].inverseInertia = bodies[i].inverseInertia(0, 0);
-	}
+	});
 	state.back() = {}; // what lanes without a contact refer to
 	impulses.resize(contacts.size());
-	for (std::size_t i = 0; i < contacts.size(); ++i) {
+	inRuns(contacts.size(), [&](std::size_t i) {
 		const Contact& c = contacts[i];
 		const bool none = c.impulse.isZero(0) || !(movable[c.body1] || movable[c.body2]);
 		impulses[i] = none ? Vector3(Vector3::Zero()) : insideCone(c.impulse, c.normal, c.friction);
+	});
+	freeVelocities();
+	sums.resize(contacts.size());
+	inRuns(contacts.size(), [&](std::size_t i) {
+		sums[i].approach = normalVelocity(contacts[i]) + contacts[i].gapVelocity;
+		sums[i].speeds = speedsAt(contacts[i]);
+	});
+	bool closes = false;
+	for (const Sums& one : sums) {
+		closes = closes || one.approach < -roundOffOf(one.speeds);
+		speedLimit = std::max(speedLimit, 1000 * one.speeds);
 	}
 	// Where nothing closes, no impulse at all is an exact solution; from impulses of before the sweeps would only creep up to it.
-	freeVelocities();
-	if (std::none_of(contacts.begin(), contacts.end(), [this](const Contact& c) { return closes(c); }))
+	if (!closes)
 		for (Vector3& impulse : impulses) impulse.setZero();
-	rebuildVelocities();
+	for (std::size_t i = 0; i < impulses.size(); ++i)
+		if (!impulses[i].isZero(0)) addImpulse(contacts[i], impulses[i]);
 	if (accelerated) {
 		sweepStart = state;
 		direction.assign(state.size(), BodyState{});
@@ -49,11 +60,8 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, int maxThreads)
 
 	// Awake at first: what carries an impulse, closes, or could be closed by a change of velocity as large as the fastest approach.
 	double fastest = 0;
-	sums.resize(contacts.size());
-	for (std::size_t i = 0; i < contacts.size(); ++i) {
-		sums[i].approach = normalVelocity(contacts[i]) + contacts[i].gapVelocity;
-		fastest = std::max(fastest, -sums[i].approach);
-	}
+	inRuns(contacts.size(), [&](std::size_t i) { sums[i].approach = normalVelocity(contacts[i]) + contacts[i].gapVelocity; });
+	for (const Sums& one : sums) fastest = std::max(fastest, -one.approach);
 	const bool small = contacts.size() <= 64;
 	packs.clear();
 	generals.clear();
@@ -69,7 +77,7 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, int maxThreads)
 			putSleeper(std::int32_t(i));
 	}
 	layOut(selected);
-	crew.emplace(awake >= worthThreads ? maxThreads : 1);
+	if (awake < worthThreads) crew.emplace(1);
 }
 
 double GrainOperator::normalVelocity(const Contact& c) const
@@ -86,18 +94,16 @@ double GrainOperator::normalVelocity(const Sleeper& s) const
 	return (velocity(state[s.body2]) - velocity(state[s.body1])).dot(s.normal);
 }
 
-void GrainOperator::extrapolate(Extrapolation by, std::size_t first, std::size_t last)
+void GrainOperator::extrapolate(Extrapolation by, std::size_t i)
 {
-	for (std::size_t i = first; i < last; ++i) {
-		BodyState &now = state[i], &start = sweepStart[i], &d = direction[i];
-		for (int k = 0; k < 3; ++k) {
-			const double lastV = now.velocity[k] - start.velocity[k], lastW = now.angularVelocity[k] - start.angularVelocity[k];
-			const double dv = by.relax * lastV + by.momentum * d.velocity[k], dw = by.relax * lastW + by.momentum * d.angularVelocity[k];
-			d.velocity[k] = lastV + dv;
-			d.angularVelocity[k] = lastW + dw;
-			start.velocity[k] = now.velocity[k] += dv;
-			start.angularVelocity[k] = now.angularVelocity[k] += dw;
-		}
+	BodyState &now = state[i], &start = sweepStart[i], &d = direction[i];
+	for (int k = 0; k < 3; ++k) {
+		const double lastV = now.velocity[k] - start.velocity[k], lastW = now.angularVelocity[k] - start.angularVelocity[k];
+		const double dv = by.relax * lastV + by.momentum * d.velocity[k], dw = by.relax * lastW + by.momentum * d.angularVelocity[k];
+		d.velocity[k] = lastV + dv;
+		d.angularVelocity[k] = lastW + dw;
+		start.velocity[k] = now.velocity[k] += dv;
+		start.angularVelocity[k] = now.angularVelocity[k] += dw;
 	}
 }
 
@@ -115,9 +121,7 @@ SweepNorms GrainOperator::sweep(Extrapolation by)
 {
 	chunkNorms.resize(chunks.size());
 	const std::size_t bodies = problem->bodies.size();
-	if (accelerated)
-		crew->run((bodies + bodiesPerRun - 1) / bodiesPerRun,
-				  [&](std::size_t k) { extrapolate(by, k * bodiesPerRun, std::min(bodies, (k + 1) * bodiesPerRun)); });
+	if (accelerated) inRuns(bodies, [&](std::size_t i) { extrapolate(by, i); });
 	for (const Group& group : groups)
 		crew->run(group.lastChunk - group.firstChunk,
 				  [&](std::size_t k) { visit(chunks[group.firstChunk + k], chunkNorms[group.firstChunk + k], by); });
@@ -134,10 +138,7 @@ bool GrainOperator::mend()
 {
 	mustWake.resize(sleepers.size());
 	const std::size_t count = sleepers.size();
-	crew->run((count + contactsPerRun - 1) / contactsPerRun, [&](std::size_t k) {
-		for (std::size_t i = k * contactsPerRun; i < std::min(count, (k + 1) * contactsPerRun); ++i)
-			mustWake[i] = !(normalVelocity(sleepers[i]) + sleepers[i].offset >= 0);
-	});
+	inRuns(count, [&](std::size_t i) { mustWake[i] = !(normalVelocity(sleepers[i]) + sleepers[i].offset >= 0); });
 	selected.clear();
 	std::size_t kept = 0;
 	for (std::size_t i = 0; i < sleepers.size(); ++i) {
@@ -152,7 +153,5 @@ bool GrainOperator::mend()
 	if (sweeps >= 8 && (sweeps & (sweeps - 1)) == 0) letIdleSleep();
 	return woken;
 }
-
-bool GrainOperator::closes(const Contact& c) const { return normalVelocity(c) + c.gapVelocity < -roundOffOf(speedsAt(c)); }
 
 } // namespace contactdynamics

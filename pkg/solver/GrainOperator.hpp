@@ -28,11 +28,14 @@ public:
 	bool mend();
 	double certificate();
 
+	/// Sends the threads home; start() engages new ones.
+	void dismissCrew() { crew.reset(); }
+
 	/// Writes velocities, impulses and status of the last certificate() into the problem, and the counts into the report.
 	void finish(SolveReport& report);
 
 private:
-	static constexpr std::size_t contactsPerRun = 512; // contacts that one job of the crew looks at
+	static constexpr std::size_t perRun = 512; // contacts or bodies that one job of the crew looks at
 
 	struct Chunk { // a run of contacts of one colour, visited by one thread, summed as one term
 		std::size_t firstPack, packs, firstGeneral, generals;
@@ -48,7 +51,7 @@ private:
 	};
 	struct Sums {
 		ResidualSum residual;
-		double approach = 0;
+		double approach = 0, speeds = 0;
 	};
 
 	struct Place { // of a contact in the old layout
@@ -62,6 +65,7 @@ private:
 	std::optional<Crew> crew;
 	std::size_t awake = 0;
 	double maxApproachSpeed = 0;
+	double speedLimit = 0; // speeds above it, 1000 times the fastest at the start, are no excuse for round-off: the iterate diverges [m/s]
 	SweepNorms lastNorms;
 
 	std::vector<BodyState> state, sweepStart, direction; // velocities now, at the start of the last sweep, and of the search direction
@@ -82,6 +86,13 @@ private:
 
 	static bool isCompliant(const Contact& c) { return c.normalCompliance != 0 || c.tangentialCompliance != 0; }
 	bool isBall(const Contact& c) const { return c.ball && c.imageVelocity.isZero(0) && !isCompliant(c); }
+	/// Calls job(0) ... job(count - 1) in any order; each may write only what belongs to its index.
+	template <class Job> void inRuns(std::size_t count, const Job& job)
+	{
+		crew->run((count + perRun - 1) / perRun, [&](std::size_t k) {
+			for (std::size_t i = k * perRun; i < std::min(count, (k + 1) * perRun); ++i) job(i);
+		});
+	}
 	std::int32_t indexOf(std::int32_t body) const { return movable[body] ? body : ~body; }
 	double normalVelocity(const Sleeper& s) const;
 	double normalVelocity(const Contact& c) const;
@@ -91,10 +102,9 @@ private:
 	void putGeneral(GeneralContact& g, std::int32_t id) const;
 	void putSleeper(std::int32_t id);
 	void letIdleSleep();
-	void extrapolate(Extrapolation by, std::size_t first, std::size_t last);
+	void extrapolate(Extrapolation by, std::size_t body);
 	void visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by);
 	void collectImpulses();
-	bool closes(const Contact& c) const;
 	double speedsAt(const Contact& c) const;
 	void freeVelocities();
 	void rebuildVelocities();

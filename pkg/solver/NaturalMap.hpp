@@ -18,8 +18,8 @@ namespace contactdynamics {
 ///
 ///     residual = sqrt( sum F^T W_cc F / sum r^T W_cc r )                                                 [-]
 ///
-/// It is 0 when all F are zero, also when all r are zero, and 1 when all r are zero but some F is not. An F below the round-off of the
-/// velocities it is made of (W_nn |F| <= 16 eps V, V the sum of the speeds that enter u) carries no information and counts as zero:
+/// It is 0 when all F are zero, also when all r are zero, 1 when all r are zero but some F is not, not a number when a sum overflows. An F below the
+/// round-off of the velocities it is made of (W_nn |F| <= 16 eps V, V the sum of the speeds that enter u) carries no information and counts as zero:
 /// otherwise grains that fly side by side and touch would be iterated for ever.
 /// Contacts with W_nn = 0 cannot be influenced by any impulse; they count in maxApproachSpeed only.
 class ResidualSum {
@@ -35,6 +35,7 @@ public:
 
 	double value() const
 	{
+		if (!std::isfinite(map) || !std::isfinite(impulse)) return std::numeric_limits<double>::quiet_NaN(); // overflow is no zero
 		if (map == 0) return 0;
 		return impulse > 0 ? std::sqrt(map / impulse) : 1;
 	}

@@ -9,7 +9,9 @@
 
 namespace contactdynamics {
 
-struct SignoriniCoulombSolver::Workspace : GrainOperator {};
+struct SignoriniCoulombSolver::Workspace {
+	GrainOperator grains, rival;
+};
 
 SignoriniCoulombSolver::SignoriniCoulombSolver() : workspace(std::make_unique<Workspace>()) {}
 SignoriniCoulombSolver::~SignoriniCoulombSolver() = default;
@@ -58,13 +60,18 @@ SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOpt
 	report.status = SolveStatus::notFinite;
 	if (!isFinite(problem)) return report;
 
-	GrainOperator& grains = *workspace;
+	GrainOperator &grains = workspace->grains, &rival = workspace->rival;
 	grains.start(problem, options.acceleration != Acceleration::none, options.threads);
-	const LoopResult result = signoriniCoulombLoop(grains, options);
+	const LoopResult result = signoriniCoulombLoop(grains, options, [&] {
+		rival.start(problem, false, options.threads);
+		return &rival;
+	});
 	report.iterations = result.iterations;
 	report.residual = result.residual;
 	if (!std::isfinite(result.residual)) return report;
-	grains.finish(report);
+	(result.byRival ? rival : grains).finish(report);
+	grains.dismissCrew();
+	rival.dismissCrew();
 	report.status = result.residual <= options.tolerance ? SolveStatus::converged : SolveStatus::maxIterations;
 	return report;
 }

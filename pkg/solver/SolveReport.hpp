@@ -6,12 +6,14 @@ namespace contactdynamics {
 enum class SolveStatus {
 	converged,	   ///< residual <= tolerance at the returned point
 	maxIterations, ///< residual > tolerance: the returned point is the last one, inside the cones and consistent with the velocities
-	notFinite	   ///< input or iterate not finite: bodies and impulses are left as given
+	notFinite,	   ///< input or iterate not finite: bodies and impulses are left as given
+	unbounded	   ///< explicit block problems only: the tolerance is met, but by impulses that grow without bound while the contacts go on closing
 };
 
 struct SolveReport {
 	SolveStatus status = SolveStatus::converged;
 	int iterations = 0;			 ///< sweeps done
+	int newtonSteps = 0;		 ///< explicit block problems only: linear systems solved by the Newton finish
 	double residual = 0;		 ///< relative natural map at the returned point, over all contacts, see NaturalMap.hpp [-]
 	double maxApproachSpeed = 0; ///< largest max(0, -(U_N + s)) at the returned point [m/s]
 	int activeContacts = 0;		 ///< contacts with a non-zero impulse

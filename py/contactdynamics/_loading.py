@@ -17,22 +17,26 @@ _REMEDY = (
 def load() -> dict[str, type]:
     """Register the classes of the plugin with YADE and return them by name.
 
-    Loading again returns the same classes and changes nothing. The scene is left alone, but a dispatcher made before the
-    first load has no room for new classes: define ``O.engines`` after importing.
+    Loading again returns the same classes and changes nothing. The scene is left alone, but a dispatcher made before
+    the first load has no room for new classes: define ``O.engines`` after importing.
 
     :raises ImportError: YADE cannot be imported, is of another version or flavour, or lays out its objects differently
     """
     wrapper = _import_yade()
-    # The plugin is opened only now. Another flavour of YADE has libraries of the same names with other number types in them:
-    # opening the plugin there would not fail, but compute with garbage.
+    # The plugin is opened only now. Another flavour of YADE has libraries of the same names with other number types in
+    # them: opening the plugin there would not fail, but compute with garbage.
     try:
         plugin = importlib.import_module("._plugin", __package__)
     except ImportError as error:
-        raise ImportError(f"The compiled part of contactdynamics cannot be opened ({error}). Build or install it again.") from error
+        raise ImportError(
+            f"The compiled part of contactdynamics cannot be opened ({error}). Build or install it again."
+        ) from error
     _check_layout(plugin)
     names = plugin.registerClasses()
     if not names:
-        raise ImportError("Another copy of contactdynamics is already loaded in this process. Start YADE again to use this one.")
+        raise ImportError(
+            "Another copy of contactdynamics is already loaded in this process. Start YADE again to use this one."
+        )
     return {name: getattr(wrapper, name) for name in names}
 
 
@@ -42,9 +46,9 @@ def _import_yade() -> ModuleType:
         import yade.config
     except Exception as error:  # YADE's own start-up raises all kinds
         raise ImportError(
-            f"contactdynamics works inside YADE, and `import yade` failed ({type(error).__name__}: {error}). Run your script as "
-            "`yade script.py`; or run it with the Python that YADE uses (the first line of the program `yade` names it) and "
-            "YADE's package directory in PYTHONPATH (Debian: /usr/lib/<architecture>/yade-double/py)."
+            f"contactdynamics works inside YADE, and `import yade` failed ({type(error).__name__}: {error}). Run your "
+            "script as `yade script.py`; or run it with the Python that YADE uses (the first line of the program "
+            "`yade` names it) and YADE's package directory in PYTHONPATH (Debian: /usr/lib/<architecture>/yade-double/py)."
         ) from error
     check_build(yade.config)
     return importlib.import_module("yade.wrapper")
@@ -58,16 +62,20 @@ def check_build(config: ModuleType) -> None:
     """
     if config.highPrecisionBits != 64:
         raise ImportError(
-            f"contactdynamics needs YADE in double precision (64 bits); this one computes with {config.highPrecisionBits} bits "
-            f"(yade{config.suffix}, {config.highPrecisionName}). Start your script with `yade` instead of `yade{config.suffix}`."
+            "contactdynamics needs YADE in double precision (64 bits); this one computes with "
+            f"{config.highPrecisionBits} bits (yade{config.suffix}, {config.highPrecisionName}). "
+            f"Start your script with `yade` instead of `yade{config.suffix}`."
         )
     if config.version != _build.VERSION:
-        raise ImportError(f"contactdynamics was built for YADE {_build.VERSION}; this is YADE {config.version} in {config.libDir}. {_REMEDY}")
+        raise ImportError(
+            f"contactdynamics was built for YADE {_build.VERSION}; this is YADE {config.version} in {config.libDir}. "
+            f"{_REMEDY}"
+        )
     features = _build.LAYOUT_FEATURES.intersection(config.features)
     if features != _build.FEATURES:
         raise ImportError(
-            f"contactdynamics was built for a YADE with the features {sorted(_build.FEATURES)}; this one, in {config.libDir}, "
-            f"has {sorted(features)} of those that change YADE's classes. {_REMEDY}"
+            f"contactdynamics was built for a YADE with the features {sorted(_build.FEATURES)}; this one, in "
+            f"{config.libDir}, has {sorted(features)} of those that change YADE's classes. {_REMEDY}"
         )
 
 

@@ -54,7 +54,7 @@ def test_json_has_the_agreed_form(tmp_path):
 def test_both_accelerations_reach_the_same_velocities(tmp_path):
     file = write(tmp_path / "p.hdf5", reduced(random_global(3, 9, seed=4)))
     velocities = []
-    for acceleration in ("none", "conjugate"):
+    for acceleration in ("none", "momentum"):
         solve("--tolerance", 1e-12, "--acceleration", acceleration, file, folder=tmp_path / acceleration)
         velocities.append(read_local(tmp_path / acceleration / "p.hdf5")[2])
     # The velocities are unique here (W is regular and friction moderate); 1e-12 times the condition, below 1e4.
@@ -76,7 +76,7 @@ def test_info_judges_the_stored_solution(tmp_path):
     (["solve", "--tolerance", "1e-4x", "x"], "'1e-4x'"),
     (["solve", "--max-iterations", "-1", "x"], "--max-iterations"),
     (["solve", "--threads", "0", "x"], "--threads"),
-    (["solve", "--acceleration", "magic", "x"], "'magic', must be none or conjugate"),
+    (["solve", "--acceleration", "magic", "x"], "'magic', must be none or momentum"),
     (["solve", "--json"], "--json needs a value"),
     (["info", "--json", "x", "y"], "'--json' is no option of info"),
 ])

@@ -108,12 +108,14 @@ int main()
 	expectPlace("IGeomFunctor::preStep", &IGeomFunctor::preStep, 15);
 
 	using BoundCalls = FunctorWrapper<void, boost::mpl::vector<const shared_ptr<Shape>&, shared_ptr<Bound>&, const Se3r&, const Body*>>;
-	using LawCalls   = FunctorWrapper<bool, boost::mpl::vector<shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*>>;
-	using PhysCalls  = FunctorWrapper<void, boost::mpl::vector<const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&>>;
+	using LawCalls = FunctorWrapper<bool, boost::mpl::vector<shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*>>;
+	using PhysCalls =
+			FunctorWrapper<void, boost::mpl::vector<const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&>>;
 	expectPlace("FunctorWrapper::checkOrder", &LawCalls::checkOrder, 2);
 	Calls<void, const shared_ptr<Shape>&, shared_ptr<Bound>&, const Se3r&, const Body*>::expectPlaces<BoundCalls>("BoundFunctor::go", 6);
 	Calls<bool, shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*>::expectPlaces<LawCalls>("LawFunctor::go", 5);
-	Calls<void, const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&>::expectPlaces<PhysCalls>("IPhysFunctor::go", 5);
+	Calls<void, const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&>::expectPlaces<PhysCalls>("IPhysFunctor::go",
+																																   5);
 
 	if (failures == 0) std::cout << "every virtual function stands where Debian's YADE has it\n";
 	return failures == 0 ? 0 : 1;

@@ -120,6 +120,36 @@ TEST(Robustness, HardFrictionEndsTruthfully)
 	}
 }
 
+TEST(Robustness, AccelerationIsNeverTwiceAsSlowNorWorseThanGaussSeidel)
+{
+	// Cold heaps, among them such where momentum stalls (mu = 1, seed 7) and such where nothing converges. It takes some
+	// 300 sweeps to see that momentum has stalled; for problems that plain sweeps solve in fewer, that is the price.
+	for (const double friction : {0.3, 0.6, 1.0})
+		for (unsigned seed = 1; seed < 8; ++seed) {
+			const GrainProblem given = scenes::heap(5, seed, friction, seed % 3 == 0, seed % 4 == 0);
+			SolverOptions plain, standard;
+			plain.acceleration = Acceleration::none;
+			plain.maxIterations = 2500;
+			standard.maxIterations = 2 * plain.maxIterations;
+			GrainProblem one = given, two = given;
+			const SolveReport slow = SignoriniCoulombSolver().solve(one, plain), fast = SignoriniCoulombSolver().solve(two, standard);
+			EXPECT_LE(fast.iterations, std::max(2 * slow.iterations, 350 + slow.iterations)) << friction << ' ' << seed;
+			if (slow.status == SolveStatus::converged) { EXPECT_EQ(fast.status, SolveStatus::converged) << friction << ' ' << seed; }
+		}
+}
+
+TEST(Robustness, AnImpulseThatDrownsTheVelocitiesIsNoSolution)
+{
+	// A ball slides between two walls that press it with 1e200 N s. The velocities drown in it, and the sums of the certificate overflow.
+	GrainProblem problem;
+	problem.bodies = {scenes::wall(), scenes::ball(1, 1, {-0.001, 0, 1})};
+	problem.contacts = {scenes::touch(0, 0, 1, 1, Vector3::UnitX(), 0.5), scenes::touch(0, 0, 1, 1, -Vector3::UnitX(), 0.5)};
+	for (Contact& c : problem.contacts) c.impulse = 1e200 * c.normal;
+	SolverOptions options;
+	options.maxIterations = 0;
+	EXPECT_EQ(SignoriniCoulombSolver().solve(problem, options).status, SolveStatus::notFinite);
+}
+
 TEST(Reproducible, SameBitsForAnyNumberOfThreads)
 {
 	// More than three thousand awake contacts, so that the crew really is at work; balls and general contacts.

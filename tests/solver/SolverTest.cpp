@@ -10,7 +10,7 @@ using namespace contactdynamics;
 
 namespace {
 
-SolverOptions tight(double tolerance, int maxIterations = 100000, Acceleration acceleration = Acceleration::conjugate)
+SolverOptions tight(double tolerance, int maxIterations = 100000, Acceleration acceleration = Acceleration::momentum)
 {
 	SolverOptions options;
 	options.tolerance = tolerance;

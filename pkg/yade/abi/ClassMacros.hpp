@@ -14,6 +14,8 @@
 // The macros by which a class of YADE declares its attributes. An attribute is a tuple (type, name, default, flags, documentation); `default` and
 // `flags` may be empty. The macros only spread the names; what happens to an attribute is written in PythonAttributes.hpp.
 
+// clang-format off: it aligns the continued strings and lists of these macros beyond recognition
+
 #define YADE_ABI_TYPE(attribute) BOOST_PP_TUPLE_ELEM(5, 0, attribute)
 #define YADE_ABI_NAME(attribute) BOOST_PP_TUPLE_ELEM(5, 1, attribute)
 #define YADE_ABI_DEFAULT(attribute) BOOST_PP_TUPLE_ELEM(5, 2, attribute)
@@ -21,7 +23,7 @@
 #define YADE_ABI_DOC(attribute)                                                                                                                      \
 	BOOST_PP_TUPLE_ELEM(5, 4, attribute)                                                                                                             \
 	" :ydefault:`" BOOST_PP_STRINGIZE(YADE_ABI_DEFAULT(attribute)) "`"                                                                               \
-	" :yattrtype:`" BOOST_PP_STRINGIZE(YADE_ABI_TYPE(attribute)) "`"
+																   " :yattrtype:`" BOOST_PP_STRINGIZE(YADE_ABI_TYPE(attribute)) "`"
 
 // One line of code per attribute, for each of the functions below.
 #define YADE_ABI_DECLARE(r, data, attribute) YADE_ABI_TYPE(attribute) YADE_ABI_NAME(attribute);
@@ -35,8 +37,8 @@
 #define YADE_ABI_ARCHIVE(r, data, attribute)                                                                                                         \
 	if constexpr (!(YADE_ABI_FLAGS(attribute) & ::yade::Attr::noSave)) archive& BOOST_SERIALIZATION_NVP(YADE_ABI_NAME(attribute));
 #define YADE_ABI_PROPERTY(r, Class, attribute)                                                                                                       \
-	::yade::abi::defineAttribute<Class>(                                                                                                             \
-	        pyClass, BOOST_PP_STRINGIZE(YADE_ABI_NAME(attribute)), &Class::YADE_ABI_NAME(attribute), YADE_ABI_FLAGS(attribute), YADE_ABI_DOC(attribute));
+	::yade::abi::defineAttribute<Class>(pyClass, BOOST_PP_STRINGIZE(YADE_ABI_NAME(attribute)), &Class::YADE_ABI_NAME(attribute),                     \
+																	YADE_ABI_FLAGS(attribute), YADE_ABI_DOC(attribute));
 
 #define YADE_ABI_CONSTRUCTOR(Class, initialisers, code)                                                                                              \
 	Class() BOOST_PP_EXPR_IF(BOOST_PP_SEQ_SIZE(initialisers), :) BOOST_PP_SEQ_FOR_EACH_I(YADE_ABI_INITIALISE, ~, initialisers) { code; }
@@ -48,11 +50,13 @@ private:                                                                        
 	template <class Archive> void serialize(Archive& archive, unsigned int)                                                                          \
 	{                                                                                                                                                \
 		archive& BOOST_SERIALIZATION_BASE_OBJECT_NVP(Base);                                                                                          \
-		if constexpr (Archive::is_loading::value) preLoad(*this);                                                                                    \
+		if constexpr (Archive::is_loading::value)                                                                                                    \
+			preLoad(*this);                                                                                                                          \
 		else                                                                                                                                         \
 			preSave(*this);                                                                                                                          \
 		BOOST_PP_SEQ_FOR_EACH(YADE_ABI_ARCHIVE, ~, attributeList)                                                                                    \
-		if constexpr (Archive::is_loading::value) postLoad(*this);                                                                                   \
+		if constexpr (Archive::is_loading::value)                                                                                                    \
+			postLoad(*this);                                                                                                                         \
 		else                                                                                                                                         \
 			postSave(*this);                                                                                                                         \
 	}                                                                                                                                                \
@@ -88,7 +92,7 @@ public:                                                                         
 	void pyRegisterClass(::boost::python::object scope) override                                                                                     \
 	{                                                                                                                                                \
 		checkPyClassRegistersItself(#Class);                                                                                                         \
-		const ::boost::python::scope             inside(scope);                                                                                      \
+		const ::boost::python::scope inside(scope);                                                                                                  \
 		const ::boost::python::docstring_options everythingButSignatures(true, true, false);                                                         \
 		::boost::python::class_<Class, ::boost::shared_ptr<Class>, ::boost::python::bases<Base>, boost::noncopyable> pyClass(#Class, documentation); \
 		pyClass.def("__init__", ::yade::abi::pythonConstructor<Class>());                                                                            \
@@ -111,3 +115,5 @@ public:                                                                         
 	}                                                                                                                                                \
 	BOOST_CLASS_EXPORT_KEY(yade::Class)                                                                                                              \
 	namespace yade {
+
+// clang-format on

@@ -4,7 +4,7 @@
 // The macros below decide how YADE lays out its objects. With a wrong one everything still compiles and links, and the program
 // reads wrong numbers at run time: so refuse here. CMake's target `yade_interface` sets them all.
 
-#if !defined(__x86_64__) || !defined(__GLIBCXX__) && !defined(__GNUC__)
+#if !defined(__x86_64__) || !defined(__GNUC__)
 #error "pkg/yade declares the binary interface of YADE on amd64 with GCC's C++ library. On another platform build with -DYADE_SOURCE_DIR=<source tree of the installed YADE>."
 #endif
 
@@ -33,7 +33,7 @@
 #endif
 
 // The constructors of the serialisers of stock classes are not exported by YADE's libraries, so the compiler has to inline them. Without
-// optimisation the plugin would link and then fail to load with an undefined symbol.
+// optimisation the plugin would link and then fail to load with an undefined symbol; so it does with -Og, which the compiler does not tell apart.
 #if !defined(__OPTIMIZE__)
-#error "pkg/yade needs optimisation: compile with -O1 or more (a debug build: -Og -g), or build with -DYADE_SOURCE_DIR."
+#error "pkg/yade needs optimisation: compile with -O1 or more (for debugging: -O1 -g), or build with -DYADE_SOURCE_DIR."
 #endif

@@ -22,17 +22,15 @@ namespace boost::serialization {
 template <class Archive, class Scalar, int rows> void serialize(Archive& archive, Eigen::Matrix<Scalar, rows, 1>& vector, const unsigned int)
 {
 	static_assert(rows == 2 || rows == 3, "only Vector2 and Vector3 attributes can be saved");
-	static const char* const names[] = { "x", "y", "z" };
-	for (int i = 0; i < rows; ++i)
-		archive& make_nvp(names[i], vector[i]);
+	static const char* const names[] = {"x", "y", "z"};
+	for (int i = 0; i < rows; ++i) archive& make_nvp(names[i], vector[i]);
 }
 
 template <class Archive, class Scalar> void serialize(Archive& archive, Eigen::Matrix<Scalar, 3, 3>& matrix, const unsigned int)
 {
-	static const char* const names[] = { "m00", "m01", "m02", "m10", "m11", "m12", "m20", "m21", "m22" };
+	static const char* const names[] = {"m00", "m01", "m02", "m10", "m11", "m12", "m20", "m21", "m22"};
 	for (int row = 0; row < 3; ++row)
-		for (int column = 0; column < 3; ++column)
-			archive& make_nvp(names[3 * row + column], matrix(row, column));
+		for (int column = 0; column < 3; ++column) archive& make_nvp(names[3 * row + column], matrix(row, column));
 }
 
 template <class Archive, class Scalar> void serialize(Archive& archive, Eigen::Quaternion<Scalar>& quaternion, const unsigned int)

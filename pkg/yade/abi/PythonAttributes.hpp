@@ -10,9 +10,8 @@
 namespace yade::abi {
 
 /// Types that Python sees in place, so that `state.vel[0] = 1` acts on the object. All others are copied, as in YADE.
-template <class T>
-constexpr bool seenInPlace = std::is_same_v<T, Vector3r> || std::is_same_v<T, Vector3i> || std::is_same_v<T, Vector2r> || std::is_same_v<T, Vector2i>
-        || std::is_same_v<T, Quaternionr> || std::is_same_v<T, Matrix3r>;
+template <class T> constexpr bool seenInPlace = std::is_same_v<T, Vector3r> || std::is_same_v<T, Vector3i> || std::is_same_v<T, Vector2r> ||
+												std::is_same_v<T, Vector2i> || std::is_same_v<T, Quaternionr> || std::is_same_v<T, Matrix3r>;
 
 template <class T> void assign(T& attribute, const py::object& value)
 {
@@ -28,7 +27,8 @@ void defineAttribute(PyClass& pyClass, const char* name, T Class::*member, int f
 	documentation += " :yattrflags:`" + std::to_string(flags) + "` ";
 
 	py::object getter;
-	if constexpr (seenInPlace<T>) getter = py::make_getter(member);
+	if constexpr (seenInPlace<T>)
+		getter = py::make_getter(member);
 	else
 		getter = py::make_getter(member, py::return_value_policy<py::return_by_value>());
 
@@ -37,9 +37,9 @@ void defineAttribute(PyClass& pyClass, const char* name, T Class::*member, int f
 		return;
 	}
 	const bool callsPostLoad = flags & Attr::triggerPostLoad;
-	const auto set           = [member, callsPostLoad](Class& object, const T& value) {
-        object.*member = value;
-        if (callsPostLoad) object.callPostLoad();
+	const auto set = [member, callsPostLoad](Class& object, const T& value) {
+		object.*member = value;
+		if (callsPostLoad) object.callPostLoad();
 	};
 	const auto setter = py::make_function(set, py::default_call_policies(), boost::mpl::vector<void, Class&, const T&>());
 	pyClass.add_property(name, getter, setter, documentation.c_str());
@@ -51,9 +51,8 @@ template <class Class> shared_ptr<Class> constructFromKeywords(py::tuple argumen
 	const shared_ptr<Class> instance(new Class);
 	instance->pyHandleCustomCtorArgs(arguments, keywords);
 	if (py::len(arguments) > 0)
-		throw std::runtime_error(
-		        instance->getClassName() + ": " + std::to_string(py::len(arguments))
-		        + " positional argument(s) given, none allowed; write attributes as keyword=value.");
+		throw std::runtime_error(instance->getClassName() + ": " + std::to_string(py::len(arguments)) +
+								 " positional argument(s) given, none allowed; write attributes as keyword=value.");
 	if (py::len(keywords) > 0) instance->pyUpdateAttrs(keywords);
 	return instance;
 }
@@ -61,8 +60,8 @@ template <class Class> shared_ptr<Class> constructFromKeywords(py::tuple argumen
 template <class Class> py::object pythonConstructor()
 {
 	const py::object construct = py::make_constructor(&constructFromKeywords<Class>);
-	const auto       dispatch  = [construct](const py::tuple& selfAndArguments, const py::dict& keywords) -> py::object {
-        return construct(py::object(selfAndArguments[0]), py::tuple(selfAndArguments.slice(1, py::_)), keywords);
+	const auto dispatch = [construct](const py::tuple& selfAndArguments, const py::dict& keywords) -> py::object {
+		return construct(py::object(selfAndArguments[0]), py::tuple(selfAndArguments.slice(1, py::_)), keywords);
 	};
 	return py::raw_function(dispatch, 1);
 }

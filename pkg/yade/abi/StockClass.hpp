@@ -8,6 +8,11 @@
 #include <boost/archive/detail/iserializer.hpp>
 #include <boost/archive/detail/oserializer.hpp>
 #include <boost/serialization/export.hpp>
+#include <boost/version.hpp>
+
+#if BOOST_VERSION != 107400
+#error "Debian's YADE is compiled with Boost 1.74, whose serialisers and Python classes the plugin shares: use the headers of the same version."
+#endif
 
 // How a class of stock YADE is declared here. Everything these macros declare is defined in YADE's libraries: our own code never emits it.
 

@@ -16,24 +16,24 @@ class Interaction;
 class Body : public Serializable {
 	YADE_STOCK_SERIALIZABLE(Body)
 
-	using id_t        = int;
+	using id_t = int;
 	using MapId2IntrT = std::map<id_t, shared_ptr<Interaction>>;
 
 	static const id_t ID_NONE;
 	enum { FLAG_BOUNDED = 1, FLAG_ASPHERICAL = 2, FLAG_SUBDOMAIN = 4, FLAG_FLUIDDOMAINBBOX = 8 };
 
-	id_t                 id;
-	mask_t               groupMask;
-	int                  flags; ///< bits of FLAG_*
-	int                  subdomain;
+	id_t id;
+	mask_t groupMask;
+	int flags; ///< bits of FLAG_*
+	int subdomain;
 	shared_ptr<Material> material;
-	shared_ptr<State>    state;
-	shared_ptr<Shape>    shape;
-	shared_ptr<Bound>    bound;
-	MapId2IntrT          intrs;   ///< interactions in which this body has the smaller id
-	id_t                 clumpId; ///< id of the clump this body is, or is a member of; ID_NONE otherwise
-	long                 iterBorn;
-	Real                 timeBorn;
+	shared_ptr<State> state;
+	shared_ptr<Shape> shape;
+	shared_ptr<Bound> bound;
+	MapId2IntrT intrs; ///< interactions in which this body has the smaller id
+	id_t clumpId;	   ///< id of the clump this body is, or is a member of; ID_NONE otherwise
+	long iterBorn;
+	Real timeBorn;
 
 	Body();
 	virtual void userForcedDisplacementRedrawHook();
@@ -41,10 +41,10 @@ class Body : public Serializable {
 	static const shared_ptr<Body>& byId(id_t id, Scene* scene = nullptr);
 	static const shared_ptr<Body>& byId(id_t id, shared_ptr<Scene> scene);
 
-	id_t   getId() const { return id; }
+	id_t getId() const { return id; }
 	mask_t getGroupMask() const { return groupMask; }
-	bool   maskOk(int mask) const;
-	bool   maskCompatible(int mask) const;
+	bool maskOk(int mask) const;
+	bool maskCompatible(int mask) const;
 
 	bool isClump() const { return clumpId != ID_NONE && clumpId == id; }
 	bool isClumpMember() const { return clumpId != ID_NONE && clumpId != id; }

@@ -15,7 +15,7 @@ class BodyContainer : public Serializable {
 		bool operator()(const shared_ptr<Body>& body) const { return static_cast<bool>(body); }
 	};
 	using ContainerT = std::vector<shared_ptr<Body>>;
-	using iterator   = boost::filter_iterator<isNonEmptySharedPtr, ContainerT::iterator>;
+	using iterator = boost::filter_iterator<isNonEmptySharedPtr, ContainerT::iterator>;
 
 	ContainerT body;
 
@@ -25,11 +25,11 @@ private:
 public:
 	BodyContainer() = delete;
 
-	iterator                begin();
-	iterator                end();
-	size_t                  size() const; ///< highest id + 1, erased bodies included
-	bool                    exists(Body::id_t id) const;
-	shared_ptr<Body>&       operator[](unsigned int id);
+	iterator begin();
+	iterator end();
+	size_t size() const; ///< highest id + 1, erased bodies included
+	bool exists(Body::id_t id) const;
+	shared_ptr<Body>& operator[](unsigned int id);
 	const shared_ptr<Body>& operator[](unsigned int id) const;
 };
 

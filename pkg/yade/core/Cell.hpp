@@ -13,27 +13,27 @@ class Cell : public Serializable {
 
 private:
 	abi::Opaque<24, 168> inverseAndIncrement;
-	Matrix3r             _vGradTimesPrevH;
-	Vector3r             _size;
-	Vector3r             _cos;
+	Matrix3r _vGradTimesPrevH;
+	Vector3r _size;
+	Vector3r _cos;
 	abi::Opaque<288, 312> reference;
-	bool                 _hasShear;
+	bool _hasShear;
 	abi::Opaque<313, 320> afterHasShear;
-	Matrix3r             _shearTrsf;
-	Matrix3r             _unshearTrsf;
+	Matrix3r _shearTrsf;
+	Matrix3r _unshearTrsf;
 	abi::Opaque<464, 592> forDrawing;
 
 public:
 	Matrix3r trsf; ///< deformation gradient since the start
 	Matrix3r refHSize;
-	Matrix3r hSize;       ///< edges [m]
-	Matrix3r prevHSize;   ///< edges in the step before [m]
-	Matrix3r velGrad;     ///< velocity gradient of this step [1/s]
+	Matrix3r hSize;		  ///< edges [m]
+	Matrix3r prevHSize;	  ///< edges in the step before [m]
+	Matrix3r velGrad;	  ///< velocity gradient of this step [1/s]
 	Matrix3r nextVelGrad; ///< what `velGrad` becomes in the next step if `velGradChanged` [1/s]
 	Matrix3r prevVelGrad; ///< velocity gradient of the step before [1/s]
-	int      homoDeform;  ///< one of HOMO_*: how bodies follow the cell
-	bool     velGradChanged;
-	bool     flipFlippable;
+	int homoDeform;		  ///< one of HOMO_*: how bodies follow the cell
+	bool velGradChanged;
+	bool flipFlippable;
 
 	enum { HOMO_NONE = 0, HOMO_POS = 1, HOMO_VEL = 2, HOMO_VEL_2ND = 3 };
 
@@ -42,12 +42,12 @@ public:
 	const Vector3r& getSize() const { return _size; }
 	/// Cosines of the skew angles in the yz, xz and xy planes.
 	const Vector3r& getCos() const { return _cos; }
-	bool            hasShear() const { return _hasShear; }
+	bool hasShear() const { return _hasShear; }
 	const Matrix3r& getShearTrsf() const { return _shearTrsf; }
 	const Matrix3r& getUnshearTrsf() const { return _unshearTrsf; }
-	Vector3r        shearPt(const Vector3r& point) const { return _shearTrsf * point; }
-	Vector3r        unshearPt(const Vector3r& point) const { return _unshearTrsf * point; }
-	Vector3r        wrapShearedPt(const Vector3r& point) const;
+	Vector3r shearPt(const Vector3r& point) const { return _shearTrsf * point; }
+	Vector3r unshearPt(const Vector3r& point) const { return _unshearTrsf * point; }
+	Vector3r wrapShearedPt(const Vector3r& point) const;
 
 	/// By how much body 2 of an interaction is displaced [m], and how much faster it is there [m/s].
 	Vector3r intrShiftPos(const Vector3i& cellDist) const { return hSize * cellDist.cast<Real>(); }

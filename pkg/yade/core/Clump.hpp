@@ -12,7 +12,7 @@ class Clump : public Shape {
 
 	using MemberMap = std::map<Body::id_t, Se3r>;
 
-	MemberMap   members; ///< placement of each member in the clump's frame
+	MemberMap members; ///< placement of each member in the clump's frame
 	vector<int> ids;
 
 	Clump() = delete;

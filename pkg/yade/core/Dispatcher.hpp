@@ -10,7 +10,7 @@ class Dispatcher : public Engine {
 	YADE_STOCK_SERIALIZABLE(Dispatcher)
 	Dispatcher() = delete;
 	virtual string getFunctorType() const;
-	virtual int    getDimension() const;
+	virtual int getDimension() const;
 	virtual string getBaseClassType(unsigned int which) const;
 };
 

@@ -12,12 +12,12 @@ class Scene;
 class Engine : public Serializable {
 	YADE_STOCK_SERIALIZABLE(Engine)
 
-	Scene*                   scene; ///< set by the scene before `action`; null or stale before
-	TimingInfo               timingInfo;
+	Scene* scene; ///< set by the scene before `action`; null or stale before
+	TimingInfo timingInfo;
 	shared_ptr<TimingDeltas> timingDeltas;
-	bool                     dead;
-	int                      ompThreads;
-	string                   label;
+	bool dead;
+	int ompThreads;
+	string label;
 
 	Engine();
 	virtual bool isActivated();

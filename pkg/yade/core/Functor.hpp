@@ -14,10 +14,10 @@ class Functor : public Serializable {
 	YADE_STOCK_SERIALIZABLE(Functor)
 
 	shared_ptr<TimingDeltas> timingDeltas;
-	Scene*                   scene = nullptr; ///< set by the dispatcher before each loop
-	string                   label;
+	Scene* scene = nullptr; ///< set by the dispatcher before each loop
+	string label;
 
-	Functor() { }
+	Functor() {}
 	virtual vector<string> getFunctorTypes() const;
 };
 
@@ -26,11 +26,11 @@ template <class Type, class Result, class Arguments> class Functor1D : public Fu
 public:
 	using DispatchType1 = Type;
 
-	Functor1D() { }
-	~Functor1D() override { }
-	string         getClassName() const override;
-	string         getBaseClassName(unsigned int which = 0) const override;
-	int            getBaseClassNumber() const override;
+	Functor1D() {}
+	~Functor1D() override {}
+	string getClassName() const override;
+	string getBaseClassName(unsigned int which = 0) const override;
+	int getBaseClassNumber() const override;
 	vector<string> getFunctorTypes() const override;
 	virtual string get1DFunctorType1() const;
 };
@@ -41,11 +41,11 @@ public:
 	using DispatchType1 = Type1;
 	using DispatchType2 = Type2;
 
-	Functor2D() { }
-	~Functor2D() override { }
-	string         getClassName() const override;
-	string         getBaseClassName(unsigned int which = 0) const override;
-	int            getBaseClassNumber() const override;
+	Functor2D() {}
+	~Functor2D() override {}
+	string getClassName() const override;
+	string getBaseClassName(unsigned int which = 0) const override;
+	int getBaseClassNumber() const override;
 	vector<string> getFunctorTypes() const override;
 	virtual string get2DFunctorType1() const;
 	virtual string get2DFunctorType2() const;

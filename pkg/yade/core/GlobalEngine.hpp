@@ -8,7 +8,7 @@ namespace yade {
 /// An engine that acts on the scene as a whole.
 class GlobalEngine : public Engine {
 	YADE_STOCK_SERIALIZABLE(GlobalEngine)
-	GlobalEngine() { }
+	GlobalEngine() {}
 };
 
 } // namespace yade

@@ -10,7 +10,7 @@ namespace yade {
 class IGeom : public Serializable, public Indexable {
 	YADE_STOCK_SERIALIZABLE(IGeom)
 	YADE_STOCK_INDEX_ROOT(IGeom)
-	IGeom() { }
+	IGeom() {}
 };
 
 } // namespace yade

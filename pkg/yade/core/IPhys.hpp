@@ -10,7 +10,7 @@ namespace yade {
 class IPhys : public Serializable, public Indexable {
 	YADE_STOCK_SERIALIZABLE(IPhys)
 	YADE_STOCK_INDEX_ROOT(IPhys)
-	IPhys() { }
+	IPhys() {}
 };
 
 } // namespace yade

@@ -18,29 +18,29 @@ class Interaction : public Serializable {
 	bool isActive;
 	/// Functors that InteractionLoop calls for this pair.
 	struct {
-		bool                     geomExists; ///< whether an IGeom functor for the pair of shapes exists
+		bool geomExists; ///< whether an IGeom functor for the pair of shapes exists
 		shared_ptr<IGeomFunctor> geom;
 		shared_ptr<IPhysFunctor> phys;
-		shared_ptr<LawFunctor>   constLaw;
+		shared_ptr<LawFunctor> constLaw;
 	} functorCache;
-	Body::id_t        id1;
-	Body::id_t        id2;
-	long              iterMadeReal; ///< step in which it became real; -1 otherwise
-	long              iterLastSeen; ///< not initialised by YADE for interactions that the collider makes
+	Body::id_t id1;
+	Body::id_t id2;
+	long iterMadeReal; ///< step in which it became real; -1 otherwise
+	long iterLastSeen; ///< not initialised by YADE for interactions that the collider makes
 	shared_ptr<IGeom> geom;
 	shared_ptr<IPhys> phys;
-	Vector3i          cellDist; ///< body 2 is to be shifted by so many periods of the cell
-	int               linIx;
-	long              iterBorn;
+	Vector3i cellDist; ///< body 2 is to be shifted by so many periods of the cell
+	int linIx;
+	long iterBorn;
 
 	Interaction();
 	Interaction(Body::id_t id1, Body::id_t id2);
 
-	bool              isReal() const { return geom && phys; }
-	bool              isFresh(Scene* scene);
+	bool isReal() const { return geom && phys; }
+	bool isFresh(Scene* scene);
 	const Body::id_t& getId1() const { return id1; }
 	const Body::id_t& getId2() const { return id2; }
-	void              swapOrder();
+	void swapOrder();
 };
 
 } // namespace yade

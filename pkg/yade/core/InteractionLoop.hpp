@@ -15,7 +15,7 @@ private:
 public:
 	shared_ptr<IGeomDispatcher> geomDispatcher;
 	shared_ptr<IPhysDispatcher> physDispatcher;
-	shared_ptr<LawDispatcher>   lawDispatcher;
+	shared_ptr<LawDispatcher> lawDispatcher;
 
 private:
 	abi::Opaque<184, 209> callbacksAndOrder;

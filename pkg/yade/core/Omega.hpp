@@ -15,7 +15,7 @@ class Scene;
 /// What YADE knows about a class from its plugin.
 struct DynlibDescriptor {
 	std::set<string> baseClasses;
-	bool             isSerializable;
+	bool isSerializable;
 };
 
 /// The process-wide object behind Python's `O`.
@@ -26,7 +26,7 @@ public:
 	Omega() = delete;
 	~Omega() = delete;
 
-	const shared_ptr<Scene>&                  getScene() const;
+	const shared_ptr<Scene>& getScene() const;
 	const std::map<string, DynlibDescriptor>& getDynlibsDescriptor() const;
 	/// Registers the classes waiting in ClassFactory::pluginClasses, after opening the given libraries.
 	void loadPlugins(vector<string> libraries);

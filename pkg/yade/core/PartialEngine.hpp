@@ -9,7 +9,7 @@ namespace yade {
 class PartialEngine : public Engine {
 	YADE_STOCK_SERIALIZABLE(PartialEngine)
 	vector<int> ids;
-	PartialEngine() { }
+	PartialEngine() {}
 };
 
 } // namespace yade

@@ -29,8 +29,8 @@ public:
 	Real dt; ///< time step [s]
 	long iter;
 	bool subStepping;
-	int  subStep;
-	Real time;  ///< [s]
+	int subStep;
+	Real time;	///< [s]
 	Real speed; ///< [steps/s]
 	long stopAtIter;
 	Real stopAtTime;
@@ -48,14 +48,14 @@ private:
 	abi::Opaque<508, 552> subdomainShapeAndTags;
 
 public:
-	vector<shared_ptr<Engine>>       engines;
-	vector<shared_ptr<Engine>>       _nextEngines;
-	shared_ptr<BodyContainer>        bodies;
+	vector<shared_ptr<Engine>> engines;
+	vector<shared_ptr<Engine>> _nextEngines;
+	shared_ptr<BodyContainer> bodies;
 	shared_ptr<InteractionContainer> interactions;
-	shared_ptr<EnergyTracker>        energy;
-	vector<shared_ptr<Material>>     materials;
-	shared_ptr<Bound>                bound;
-	shared_ptr<Cell>                 cell; ///< always there; meaningful if isPeriodic
+	shared_ptr<EnergyTracker> energy;
+	vector<shared_ptr<Material>> materials;
+	shared_ptr<Bound> bound;
+	shared_ptr<Cell> cell; ///< always there; meaningful if isPeriodic
 
 private:
 	abi::Opaque<704, 752> parameters;

@@ -9,12 +9,12 @@ namespace yade {
 class TimeStepper : public GlobalEngine {
 	YADE_STOCK_SERIALIZABLE(TimeStepper)
 
-	bool         active                 = true;
+	bool active = true;
 	unsigned int timeStepUpdateInterval = 1; ///< [steps]
 
-	TimeStepper() { }
-	bool         isActivated() override;
-	void         action() override;
+	TimeStepper() {}
+	bool isActivated() override;
+	void action() override;
 	virtual void computeTimeStep(Scene* scene);
 };
 

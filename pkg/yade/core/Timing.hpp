@@ -11,8 +11,8 @@ namespace yade {
 struct TimingInfo {
 	using delta = unsigned long long;
 
-	long  nExec = 0;
-	delta nsec  = 0; ///< [ns]
+	long nExec = 0;
+	delta nsec = 0; ///< [ns]
 
 	/// Time of the system's steady clock [ns]; 0 while timing is switched off (`O.timingEnabled`).
 	static delta getNow(bool evenIfDisabled = false)
@@ -28,11 +28,11 @@ struct TimingInfo {
 /// Times of the parts of an engine's step, shown by `yade.timing.stats()`. `start()` once a step, then `checkpoint("name")` after each part.
 class TimingDeltas {
 	TimingInfo::delta last = 0;
-	size_t            next = 0;
+	size_t next = 0;
 
 public:
 	vector<TimingInfo> data;
-	vector<string>     labels;
+	vector<string> labels;
 
 	void start()
 	{

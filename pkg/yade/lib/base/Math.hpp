@@ -38,17 +38,17 @@ using std::string;
 using std::swap;
 using std::vector;
 
-using Real   = double;
+using Real = double;
 using mask_t = int;
 
-using Vector2r    = Eigen::Matrix<Real, 2, 1>;
-using Vector2i    = Eigen::Matrix<int, 2, 1>;
-using Vector3r    = Eigen::Matrix<Real, 3, 1>;
-using Vector3i    = Eigen::Matrix<int, 3, 1>;
-using Vector6r    = Eigen::Matrix<Real, 6, 1>;
-using Matrix3r    = Eigen::Matrix<Real, 3, 3>;
+using Vector2r = Eigen::Matrix<Real, 2, 1>;
+using Vector2i = Eigen::Matrix<int, 2, 1>;
+using Vector3r = Eigen::Matrix<Real, 3, 1>;
+using Vector3i = Eigen::Matrix<int, 3, 1>;
+using Vector6r = Eigen::Matrix<Real, 6, 1>;
+using Matrix3r = Eigen::Matrix<Real, 3, 3>;
 using Quaternionr = Eigen::Quaternion<Real>;
-using AngleAxisr  = Eigen::AngleAxis<Real>;
+using AngleAxisr = Eigen::AngleAxis<Real>;
 
 const Real NaN = std::numeric_limits<Real>::quiet_NaN();
 
@@ -56,14 +56,10 @@ const Real NaN = std::numeric_limits<Real>::quiet_NaN();
 template <class Scalar> class Se3 {
 public:
 	Eigen::Matrix<Scalar, 3, 1> position;
-	Eigen::Quaternion<Scalar>   orientation;
+	Eigen::Quaternion<Scalar> orientation;
 
 	Se3() = default;
-	Se3(const Eigen::Matrix<Scalar, 3, 1>& position, const Eigen::Quaternion<Scalar>& orientation)
-	        : position(position)
-	        , orientation(orientation)
-	{
-	}
+	Se3(const Eigen::Matrix<Scalar, 3, 1>& position, const Eigen::Quaternion<Scalar>& orientation) : position(position), orientation(orientation) {}
 };
 using Se3r = Se3<Real>;
 

@@ -26,8 +26,8 @@ class Factorable;
 /// Makes instances of classes by name. Plugins enter their classes while their library is loaded.
 class ClassFactory : public Singleton<ClassFactory> {
 public:
-	using CreateShared     = shared_ptr<Factorable> (*)();
-	using Create           = Factorable* (*)();
+	using CreateShared = shared_ptr<Factorable> (*)();
+	using Create = Factorable* (*)();
 	using CreatePureCustom = void* (*)();
 
 	/// Returns false, and changes nothing, when the name is already known.
@@ -36,7 +36,7 @@ public:
 	void registerPluginClasses(const char* fileAndClasses[]);
 
 	shared_ptr<Factorable> createShared(std::string name);
-	Factorable*            createPure(std::string name);
+	Factorable* createPure(std::string name);
 
 	virtual std::string getClassName() const;
 	virtual std::string getBaseClassName(int) const;
@@ -56,10 +56,8 @@ public:
 /// Enters `Class` into the factory when the library is loaded. In namespace yade, after the class.
 #define REGISTER_FACTORABLE(Class)                                                                                                                   \
 	inline const bool BOOST_PP_CAT(registered, Class) = ::yade::ClassFactory::instance().registerFactorable(                                         \
-	        #Class,                                                                                                                                  \
-	        []() -> ::yade::Factorable* { return new Class; },                                                                                       \
-	        []() -> ::boost::shared_ptr<::yade::Factorable> { return ::boost::shared_ptr<Class>(new Class); },                                       \
-	        []() -> void* { return new Class; });
+			#Class, []() -> ::yade::Factorable* { return new Class; },                                                                               \
+			[]() -> ::boost::shared_ptr<::yade::Factorable> { return ::boost::shared_ptr<Class>(new Class); }, []() -> void* { return new Class; });
 
 #define YADE_ABI_EXPORT(r, data, Class) BOOST_CLASS_EXPORT_IMPLEMENT(yade::Class)
 #define YADE_ABI_QUOTED(r, data, Class) BOOST_PP_STRINGIZE(Class),
@@ -70,10 +68,10 @@ public:
 	}                                                                                                                                                \
 	BOOST_PP_SEQ_FOR_EACH(YADE_ABI_EXPORT, ~, classes)                                                                                               \
 	namespace {                                                                                                                                      \
-		[[maybe_unused]] const bool BOOST_PP_CAT(announced, BOOST_PP_SEQ_HEAD(classes)) = [] {                                                       \
-			const char* fileAndClasses[] = { __FILE__, BOOST_PP_SEQ_FOR_EACH(YADE_ABI_QUOTED, ~, classes) nullptr };                                 \
-			::yade::ClassFactory::instance().registerPluginClasses(fileAndClasses);                                                                  \
-			return true;                                                                                                                             \
-		}();                                                                                                                                         \
+	[[maybe_unused]] const bool BOOST_PP_CAT(announced, BOOST_PP_SEQ_HEAD(classes)) = [] {                                                           \
+		const char* fileAndClasses[] = {__FILE__, BOOST_PP_SEQ_FOR_EACH(YADE_ABI_QUOTED, ~, classes) nullptr};                                       \
+		::yade::ClassFactory::instance().registerPluginClasses(fileAndClasses);                                                                      \
+		return true;                                                                                                                                 \
+	}();                                                                                                                                             \
 	}                                                                                                                                                \
 	namespace yade {

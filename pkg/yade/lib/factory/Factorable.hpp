@@ -10,15 +10,15 @@ namespace yade {
 /// What the class factory can make.
 class Factorable : public boost::enable_shared_from_this<Factorable> {
 public:
-	Factorable() { }
+	Factorable() {}
 	// A copy would copy the members that are not named here byte by byte.
-	Factorable(const Factorable&)            = delete;
+	Factorable(const Factorable&) = delete;
 	Factorable& operator=(const Factorable&) = delete;
 
 	virtual ~Factorable();
 	/// Name of the i-th base class as Python and the archives know it; empty beyond the last.
 	virtual std::string getBaseClassName(unsigned int which = 0) const;
-	virtual int         getBaseClassNumber() const;
+	virtual int getBaseClassNumber() const;
 	virtual std::string getClassName() const;
 };
 
@@ -31,5 +31,5 @@ public:                                                                         
 #define REGISTER_BASE_CLASS_NAME(Base)                                                                                                               \
 public:                                                                                                                                              \
 	std::string getBaseClassName(unsigned int which = 0) const override { return which == 0 ? #Base : ""; }                                          \
-	int         getBaseClassNumber() const override { return 1; }
+	int getBaseClassNumber() const override { return 1; }
 #define REGISTER_CLASS_AND_BASE(Class, Base) REGISTER_CLASS_NAME(Class) REGISTER_BASE_CLASS_NAME(Base)

@@ -24,8 +24,8 @@ template <class Result, class Arguments> class FunctorWrapper {
 	using A7 = Argument<6>;
 
 public:
-	FunctorWrapper() { }
-	virtual ~FunctorWrapper() { }
+	FunctorWrapper() {}
+	virtual ~FunctorWrapper() {}
 
 	/// "T1 T2" if the functor takes its two arguments in this order only, empty otherwise.
 	virtual std::string checkOrder() const;

@@ -21,8 +21,8 @@ protected:
 	virtual int& modifyClassIndex() { throwNotOverridden(); }
 
 public:
-	Indexable() { }
-	virtual ~Indexable() { }
+	Indexable() {}
+	virtual ~Indexable() {}
 	virtual const int& getClassIndex() const { throwNotOverridden(); }
 	/// Index of the base class `depth` levels up, 1 for the direct base.
 	virtual const int& getBaseClassIndex(int) const { throwNotOverridden(); }
@@ -51,8 +51,8 @@ protected:                                                                      
                                                                                                                                                      \
 public:                                                                                                                                              \
 	static const int& getClassIndexStatic() { return modifyClassIndexStatic(); }                                                                     \
-	const int&        getClassIndex() const override { return getClassIndexStatic(); }                                                               \
-	const int&        getBaseClassIndex(int depth) const override                                                                                    \
+	const int& getClassIndex() const override { return getClassIndexStatic(); }                                                                      \
+	const int& getBaseClassIndex(int depth) const override                                                                                           \
 	{                                                                                                                                                \
 		static const Base& base = *new Base; /* never destroyed: asked for until the end of the process */                                           \
 		return depth == 1 ? base.getClassIndex() : base.getBaseClassIndex(depth - 1);                                                                \

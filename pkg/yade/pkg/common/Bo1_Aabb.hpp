@@ -12,7 +12,7 @@ class Bo1_Sphere_Aabb : public BoundFunctor {
 	Real aabbEnlargeFactor; ///< relative enlargement of the radius; negative: none
 
 	Bo1_Sphere_Aabb() = delete;
-	void   go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& placement, const Body* body) override;
+	void go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& placement, const Body* body) override;
 	string get1DFunctorType1() const override;
 };
 

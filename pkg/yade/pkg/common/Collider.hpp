@@ -11,7 +11,7 @@ class Collider : public GlobalEngine {
 	YADE_STOCK_SERIALIZABLE(Collider)
 
 	shared_ptr<BoundDispatcher> boundDispatcher;
-	mask_t                      avoidSelfInteractionMask;
+	mask_t avoidSelfInteractionMask;
 
 	Collider() = delete;
 	virtual vector<Body::id_t> probeBoundingVolume(const Bound& bound);

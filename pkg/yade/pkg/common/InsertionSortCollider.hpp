@@ -16,21 +16,21 @@ private:
 	abi::Opaque<125, 352> sortedBounds;
 
 public:
-	int  sortAxis;
+	int sortAxis;
 	bool allowBiggerThanPeriod;
 
 private:
 	abi::Opaque<357, 360> afterSwitches;
 
 public:
-	int  targetInterv;
+	int targetInterv;
 	Real overlapTolerance;
 	Real updatingDispFactor;
-	Real verletDist;         ///< by how much bounds are enlarged, so that the collider need not run in every step [m]
+	Real verletDist; ///< by how much bounds are enlarged, so that the collider need not run in every step [m]
 	Real minSweepDistFactor;
 	Real fastestBodyMaxDist; ///< largest displacement since the bounds were last computed [m]
-	int  numReinit;
-	int  numAction;
+	int numReinit;
+	int numAction;
 
 private:
 	abi::Opaque<416, 424> switches;
@@ -39,10 +39,10 @@ public:
 	shared_ptr<NewtonIntegrator> newton;
 
 	InsertionSortCollider() = delete;
-	bool               isActivated() override;
-	void               action() override;
+	bool isActivated() override;
+	void action() override;
 	vector<Body::id_t> probeBoundingVolume(const Bound& bound) override;
-	void               invalidatePersistentData() override;
+	void invalidatePersistentData() override;
 };
 
 } // namespace yade

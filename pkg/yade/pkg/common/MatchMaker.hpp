@@ -14,8 +14,8 @@ private:
 
 public:
 	vector<Vector3r> matches; ///< (id 1, id 2, value)
-	string           algo;    ///< "avg" (default), "min", "max", "harmAvg", "zero" or "val"; call postLoad after setting it
-	Real             val;
+	string algo;			  ///< "avg" (default), "min", "max", "harmAvg", "zero" or "val"; call postLoad after setting it
+	Real val;
 
 	MatchMaker();
 	/// To be called after setting `algo` or `matches` from C++.

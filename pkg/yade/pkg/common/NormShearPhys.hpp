@@ -9,7 +9,7 @@ class NormPhys : public IPhys {
 	YADE_STOCK_SERIALIZABLE(NormPhys)
 	YADE_STOCK_INDEXABLE(NormPhys)
 
-	Real     kn;          ///< [N/m]
+	Real kn;			  ///< [N/m]
 	Vector3r normalForce; ///< on body 2 [N]
 
 	NormPhys();
@@ -19,7 +19,7 @@ class NormShearPhys : public NormPhys {
 	YADE_STOCK_SERIALIZABLE(NormShearPhys)
 	YADE_STOCK_INDEXABLE(NormShearPhys)
 
-	Real     ks;         ///< [N/m]
+	Real ks;			 ///< [N/m]
 	Vector3r shearForce; ///< on body 2 [N]
 
 	NormShearPhys();

@@ -10,10 +10,10 @@ class GenericSpheresContact : public IGeom {
 	YADE_STOCK_SERIALIZABLE(GenericSpheresContact)
 	YADE_STOCK_INDEXABLE(GenericSpheresContact)
 
-	Vector3r normal;       ///< from body 1 to body 2
+	Vector3r normal;	   ///< from body 1 to body 2
 	Vector3r contactPoint; ///< [m]
-	Real     refR1;        ///< [m]
-	Real     refR2;        ///< [m]
+	Real refR1;			   ///< [m]
+	Real refR2;			   ///< [m]
 
 	GenericSpheresContact() = delete;
 };

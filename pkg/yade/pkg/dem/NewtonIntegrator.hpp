@@ -19,13 +19,13 @@ private:
 	abi::Opaque<217, 256> speeds;
 
 public:
-	Real     damping;
+	Real damping;
 	Vector3r gravity; ///< [m/s²]
-	Real     maxVelocitySq;
-	bool     exactAsphericalRot;
+	Real maxVelocitySq;
+	bool exactAsphericalRot;
 	Matrix3r prevVelGrad; ///< [1/s]
 	Vector3r prevCellSize;
-	bool     warnNoForceReset;
+	bool warnNoForceReset;
 
 private:
 	abi::Opaque<401, 409> energyOptions;

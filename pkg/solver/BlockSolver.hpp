@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "BlockProblem.hpp"
+
+namespace contactdynamics {
+
+/// Solves a block problem whose sizes have been checked: sweeps with momentum, then, where they stall, a Newton finish.
+///
+///     1. The impulses handed over are tried as they are.
+///     2. Sweeps, until they have cost ten times what a Newton step would, and at least a hundred.
+///     3. A Newton finish from the best point, of sixty steps or a few more.
+///     4. Twice as many sweeps from the best point, and so on, until maxIterations sweeps are done.
+///
+/// Costs are counted in operations, not in seconds, so that the result does not depend on the machine's load. The point returned is the best of all
+/// that were certified. D = 2 or 3.
+template <int D> SolveReport solveBlocks(BlockProblem& problem, const SolverOptions& options, Measure measure);
+
+} // namespace contactdynamics

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "Accelerator.hpp"
+#include "SolverOptions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace contactdynamics {
+
+/// The sweeps of one operator, accelerated or not, and when its certificate is worth looking at. What it needs of the operator:
+///
+///     int firstCheck                          sweep after which the certificate is evaluated to gauge the increments; 0: not before they promise
+///     bool anyAwake()                         false when no contact needs a visit
+///     SweepNorms sweep(Extrapolation)         moves to the extrapolated point, then visits every awake contact once
+///     bool mend()                             looks after sleeping contacts; true when one of them was woken
+///     double certificate()                    residual over all contacts, at feasible impulses and the velocities they produce
+///
+/// The increments of a sweep cost nothing and estimate the residual; only when they promise convergence the certificate is evaluated, and only
+/// the certificate ends the loop. Every sweep ends at a feasible point, because each visit does.
+template <class Operator> class Trajectory {
+public:
+	Trajectory(Operator& given, const SolverOptions& options, bool accelerate)
+		: op(given), tolerance(options.tolerance), accelerated(accelerate), promise(options.tolerance)
+	{
+	}
+
+	/// One sweep. True when it is the last one: the certificate is met, or the iterate is not finite (then residual() is not, either).
+	bool advance()
+	{
+		const SweepNorms norms = op.sweep(extrapolation);
+		++count;
+		const double increment = std::sqrt(std::max(0.0, norms.increment2)), impulse = std::sqrt(std::max(0.0, norms.impulse2));
+		if (!std::isfinite(increment) || !std::isfinite(impulse)) {
+			last = increment + impulse;
+			return true;
+		}
+		if (count == Operator::firstCheck || increment <= promise * impulse) {
+			if (!op.mend()) {
+				last = op.certificate();
+				if (!(last > tolerance)) return true;
+				// They promised too much: believe them again when they are smaller by what is missing.
+				if (impulse > 0) promise = std::min(0.9, 0.95 * tolerance / last) * increment / impulse;
+			}
+		} else if (count % mendEvery == 0)
+			op.mend();
+		if (accelerated) extrapolation = accelerator.next(norms.increment2);
+		return false;
+	}
+
+	/// Residual of the present point, sleeping contacts looked after.
+	double certify()
+	{
+		op.mend();
+		return last = op.certificate();
+	}
+
+	double residual() const { return last; } ///< of the last certify()
+	int sweeps() const { return count; }
+	bool hasStalled() const { return accelerator.hasStalled(); }
+
+private:
+	static constexpr int mendEvery = 8; // sweeps; a look at a sleeper costs about a quarter of a visit
+	Operator& op;
+	const double tolerance;
+	const bool accelerated;
+	double promise; // of the increments, relative
+	int count = 0;
+	double last = 0;
+	Accelerator accelerator;
+	Extrapolation extrapolation;
+};
+
+} // namespace contactdynamics
