@@ -204,7 +204,8 @@ void ContactDynamicsStep::requireUsable(const Link& link, const contactdynamics:
 		       "the friction coefficient (ContactDynamicsPhys.tangensOfFrictionAngle)",
 		       contact.friction,
 		       "it must be finite and not negative");
-	link.phys->requireUsable([&](const char* what, Real value, const char* allowed) { refuse(*link.interaction, what, value, allowed); });
+	if (!link.phys->isPlain())
+		link.phys->requireUsable([&](const char* what, Real value, const char* allowed) { refuse(*link.interaction, what, value, allowed); });
 	if (!link.phys->impulse.allFinite())
 		refuse(*link.interaction, "the stored impulse (ContactDynamicsPhys.impulse)", link.phys->impulse.sum(), "it must be finite");
 }
@@ -241,6 +242,7 @@ void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string&
 		contactdynamics::Contact& contact = problem.contacts[i];
 		describe(scene, link, contact);
 		requireUsable(link, contact);
+		link.plain          = link.phys->isPlain();
 		contact.impulse     = (link.swapped ? -warmStart : warmStart) * link.phys->impulse;
 		contact.gapVelocity = velocitySignorini ? 0 : (quasiInelasticShock ? std::max(Real(0), link.gap) : link.gap) / h;
 		if (velocitySignorini) link.solved = link.solved && (forecast(link, contact) || ShiftedContacts::isBonded(*link.phys));
@@ -266,7 +268,7 @@ void ContactDynamicsStep::shiftContacts(Real warmStart)
 	rolling.clear();
 	for (std::size_t i = 0; i < links.size(); i++) {
 		const Link& link = links[i];
-		if (!link.phys->isShifted()) continue;
+		if (link.plain) continue;
 		const contactdynamics::Contact& contact = problem.contacts[i];
 		shifted.shift(
 		        problem,

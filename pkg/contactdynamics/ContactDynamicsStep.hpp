@@ -67,6 +67,7 @@ private:
 		bool                 swapped, solved;
 		Vector3r             arm1, arm2; // from the positions of the two bodies (not of their clumps) to the contact point [m]
 		Real                 gap;        // [m]
+		bool                 plain = true; // see ContactDynamicsPhys::isPlain
 	};
 	struct Load {
 		Vector3r force, torque;
