@@ -24,8 +24,8 @@ void Bo1_Proximity::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound,
 	Vector3r margin = Vector3r::Constant(Reach::ofBody(*scene, body->getId()));
 	if (scene->isPeriodic && scene->cell->hasShear()) {
 		// Bounds live in the unsheared cell, where a length may look longer by the inverse cosine of the skew angles.
-		const Vector3r& cosine  = scene->cell->getCos();
-		const Real      stretch = 1 / cosine[0] + 1 / cosine[1] + 1 / cosine[2] - 2;
+		const Vector3r& cosine = scene->cell->getCos();
+		const Real stretch = 1 / cosine[0] + 1 / cosine[1] + 1 / cosine[2] - 2;
 		margin *= stretch;
 	}
 	bound->min -= margin;

@@ -8,18 +8,18 @@
 
 namespace yade {
 namespace {
-	template <class Value> [[noreturn]] void refuse(const Body& body, const char* attribute, const Value& value, const char* allowed)
-	{
-		std::ostringstream message;
-		message << "body #" << body.getId() << ": " << attribute << " is " << value << "; " << allowed << ".";
-		throw std::runtime_error(message.str());
-	}
-
-	void requireFinite(const Body& body, const char* attribute, const Vector3r& value)
-	{
-		if (!value.allFinite()) refuse(body, attribute, value.transpose(), "it must be finite");
-	}
+template <class Value> [[noreturn]] void refuse(const Body& body, const char* attribute, const Value& value, const char* allowed)
+{
+	std::ostringstream message;
+	message << "body #" << body.getId() << ": " << attribute << " is " << value << "; " << allowed << ".";
+	throw std::runtime_error(message.str());
 }
+
+void requireFinite(const Body& body, const char* attribute, const Vector3r& value)
+{
+	if (!value.allFinite()) refuse(body, attribute, value.transpose(), "it must be finite");
+}
+} // namespace
 
 void requireUsableState(const Body& body, const Vector3r& force, const Vector3r& torque)
 {
@@ -35,7 +35,8 @@ void requireUsableState(const Body& body, const Vector3r& force, const Vector3r&
 		if (!(state.blockedDOFs & State::axisDOF(axis, false)) && !(state.mass > 0 && std::isfinite(state.mass)))
 			refuse(body, "state.mass", state.mass, "it must be positive and finite, or all translations blocked (state.blockedDOFs)");
 		if (!(state.blockedDOFs & State::axisDOF(axis, true)) && !(state.inertia[axis] > 0 && std::isfinite(state.inertia[axis])))
-			refuse(body, "state.inertia", state.inertia.transpose(), "it must be positive and finite along every rotation that is not blocked (state.blockedDOFs)");
+			refuse(body, "state.inertia", state.inertia.transpose(),
+				   "it must be positive and finite along every rotation that is not blocked (state.blockedDOFs)");
 	}
 }
 

@@ -23,23 +23,23 @@ ContactDynamicsEngine::~ContactDynamicsEngine() = default;
 void ContactDynamicsEngine::createStep() { step = std::make_shared<Step>(); }
 
 namespace {
-	template <class Value> [[noreturn]] void refuse(const char* attribute, const Value& value, const char* allowed)
-	{
-		std::ostringstream message;
-		message << "ContactDynamicsEngine." << attribute << " = " << value << ": " << allowed << ".";
-		throw std::invalid_argument(message.str());
-	}
+template <class Value> [[noreturn]] void refuse(const char* attribute, const Value& value, const char* allowed)
+{
+	std::ostringstream message;
+	message << "ContactDynamicsEngine." << attribute << " = " << value << ": " << allowed << ".";
+	throw std::invalid_argument(message.str());
 }
+} // namespace
 
 void ContactDynamicsEngine::postLoad(ContactDynamicsEngine&)
 {
-	const Admitted asked { tolerance, maxIterations, contactLaw, onNonConvergence, repairRate, allowedOverlap };
-	tolerance        = admitted.tolerance;
-	maxIterations    = admitted.maxIterations;
-	contactLaw       = admitted.contactLaw;
+	const Admitted asked{tolerance, maxIterations, contactLaw, onNonConvergence, repairRate, allowedOverlap};
+	tolerance = admitted.tolerance;
+	maxIterations = admitted.maxIterations;
+	contactLaw = admitted.contactLaw;
 	onNonConvergence = admitted.onNonConvergence;
-	repairRate       = admitted.repairRate;
-	allowedOverlap   = admitted.allowedOverlap;
+	repairRate = admitted.repairRate;
+	allowedOverlap = admitted.allowedOverlap;
 	if (!(asked.tolerance > 0 && std::isfinite(asked.tolerance))) refuse("tolerance", asked.tolerance, "it must be positive and finite");
 	if (asked.maxIterations < 1) refuse("maxIterations", asked.maxIterations, "at least one sweep is needed");
 	if (asked.contactLaw != "quasiInelasticShock" && asked.contactLaw != "velocitySignorini" && asked.contactLaw != "signorini")
@@ -47,14 +47,15 @@ void ContactDynamicsEngine::postLoad(ContactDynamicsEngine&)
 	if (asked.onNonConvergence != "warn" && asked.onNonConvergence != "raise" && asked.onNonConvergence != "ignore")
 		refuse("onNonConvergence", '"' + asked.onNonConvergence + '"', "allowed are warn, raise and ignore");
 	if (!(asked.repairRate >= 0 && asked.repairRate <= 1)) refuse("repairRate", asked.repairRate, "it must lie between 0 (no repair) and 1");
-	if (!(asked.allowedOverlap >= 0 && std::isfinite(asked.allowedOverlap))) refuse("allowedOverlap", asked.allowedOverlap, "it must be finite and not negative");
-	tolerance        = asked.tolerance;
-	maxIterations    = asked.maxIterations;
-	contactLaw       = asked.contactLaw;
+	if (!(asked.allowedOverlap >= 0 && std::isfinite(asked.allowedOverlap)))
+		refuse("allowedOverlap", asked.allowedOverlap, "it must be finite and not negative");
+	tolerance = asked.tolerance;
+	maxIterations = asked.maxIterations;
+	contactLaw = asked.contactLaw;
 	onNonConvergence = asked.onNonConvergence;
-	repairRate       = asked.repairRate;
-	allowedOverlap   = asked.allowedOverlap;
-	admitted         = asked;
+	repairRate = asked.repairRate;
+	allowedOverlap = asked.allowedOverlap;
+	admitted = asked;
 }
 
 void ContactDynamicsEngine::action()
@@ -85,25 +86,25 @@ void ContactDynamicsEngine::collect()
 	const Real scale = impulseTimeStep > 0 ? scene->dt / impulseTimeStep : 1;
 	step->collectContacts(*scene, contactLaw, warmStart ? scale : 0);
 	step->usePlane();
-	plane             = PlaneOfMotion::nameOf(step->planeAxis);
+	plane = PlaneOfMotion::nameOf(step->planeAxis);
 	ambiguousContacts = yade::ambiguousContacts(step->problem);
 }
 
 void ContactDynamicsEngine::solve()
 {
 	const auto report = step->solve(tolerance, maxIterations);
-	iterations        = report.iterations;
-	residual          = report.residual;
-	maxApproachSpeed  = report.maxApproachSpeed;
-	converged         = report.status == contactdynamics::SolveStatus::converged;
+	iterations = report.iterations;
+	residual = report.residual;
+	maxApproachSpeed = report.maxApproachSpeed;
+	converged = report.status == contactdynamics::SolveStatus::converged;
 	if (report.status == contactdynamics::SolveStatus::notFinite)
-		throw std::runtime_error("ContactDynamicsEngine: the contact problem of step " + std::to_string(scene->iter)
-		                         + " has values that are not finite (external force, inertia or contact geometry); no body was moved.");
+		throw std::runtime_error("ContactDynamicsEngine: the contact problem of step " + std::to_string(scene->iter) +
+								 " has values that are not finite (external force, inertia or contact geometry); no body was moved.");
 	if (converged || onNonConvergence == "ignore") return;
 	std::ostringstream message;
-	message << "ContactDynamicsEngine: step " << scene->iter << ": residual " << residual << " after " << iterations << " sweeps is above the tolerance " << tolerance
-	        << " (" << step->problem.contacts.size() << " contacts, largest approach speed left " << maxApproachSpeed
-	        << " m/s). Raise maxIterations or tolerance, or lower O.dt.";
+	message << "ContactDynamicsEngine: step " << scene->iter << ": residual " << residual << " after " << iterations
+			<< " sweeps is above the tolerance " << tolerance << " (" << step->problem.contacts.size() << " contacts, largest approach speed left "
+			<< maxApproachSpeed << " m/s). Raise maxIterations or tolerance, or lower O.dt.";
 	if (onNonConvergence == "raise") throw std::runtime_error(message.str());
 	if (!warned) std::cerr << "WARNING: " << message.str() << " Said once; see ContactDynamicsEngine.converged." << std::endl;
 	warned = true;
@@ -113,14 +114,14 @@ void ContactDynamicsEngine::apply()
 {
 	step->elasticEnergy = elasticEnergy;
 	step->apply(*scene);
-	elasticEnergy   = step->elasticEnergy;
+	elasticEnergy = step->elasticEnergy;
 	impulseTimeStep = scene->dt;
-	contacts        = static_cast<int>(step->problem.contacts.size());
-	activeContacts  = step->activeContacts;
-	maxPenetration  = step->maxPenetration;
+	contacts = static_cast<int>(step->problem.contacts.size());
+	activeContacts = step->activeContacts;
+	maxPenetration = step->maxPenetration;
 	meanPenetration = step->meanPenetration;
 	step->repairPenetration(*scene, repairRate, allowedOverlap);
-	remainingOverlap   = step->repair.remainingOverlap();
+	remainingOverlap = step->repair.remainingOverlap();
 	repairDisplacement = step->repair.largestDisplacement();
 }
 

@@ -28,10 +28,10 @@ private:
 	void apply();
 
 	struct Admitted {
-		Real   tolerance     = 1e-4;
-		int    maxIterations = 1000;
+		Real tolerance = 1e-4;
+		int maxIterations = 1000;
 		string contactLaw = "quasiInelasticShock", onNonConvergence = "warn";
-		Real   repairRate = 0, allowedOverlap = 1e-5;
+		Real repairRate = 0, allowedOverlap = 1e-5;
 	} admitted;
 	bool warned = false;
 

@@ -12,8 +12,8 @@ public:
 	/// Whether nothing but Signorini's condition and Coulomb's law with one coefficient holds here: such contacts pass by at no cost.
 	bool isPlain() const
 	{
-		return normalRestitution == 0 && tangentialRestitution == 0 && restitutionVelocity == 0 && staticFriction == 0 && cohesionForce == 0
-		        && cohesionShear == 0 && kn == 0 && ks == 0 && normalDamping == 0 && rollingArm == 0 && twistingArm == 0;
+		return normalRestitution == 0 && tangentialRestitution == 0 && restitutionVelocity == 0 && staticFriction == 0 && cohesionForce == 0 &&
+			   cohesionShear == 0 && kn == 0 && ks == 0 && normalDamping == 0 && rollingArm == 0 && twistingArm == 0;
 	}
 	/// Calls `refuse` with the first attribute that is not admissible, its value and what is allowed.
 	void requireUsable(const std::function<void(const char*, Real, const char*)>& refuse) const;

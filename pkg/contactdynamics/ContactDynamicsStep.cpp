@@ -21,43 +21,47 @@
 
 namespace yade {
 namespace {
-	bool isotropic(const FreeMotion& motion)
-	{
-		return motion.inverseMass == Vector3r::Constant(motion.inverseMass[0])
-		        && motion.inverseInertia == Matrix3r(motion.inverseInertia(0, 0) * Matrix3r::Identity());
-	}
-	bool immobile(const FreeMotion& motion) { return motion.inverseMass == Vector3r::Zero() && motion.inverseInertia == Matrix3r::Zero(); }
+bool isotropic(const FreeMotion& motion)
+{
+	return motion.inverseMass == Vector3r::Constant(motion.inverseMass[0]) &&
+		   motion.inverseInertia == Matrix3r(motion.inverseInertia(0, 0) * Matrix3r::Identity());
+}
+bool immobile(const FreeMotion& motion) { return motion.inverseMass == Vector3r::Zero() && motion.inverseInertia == Matrix3r::Zero(); }
 
-	[[noreturn]] void refuse(const Interaction& interaction, const char* what, Real value, const char* allowed)
-	{
-		std::ostringstream message;
-		message << "contact #" << interaction.getId1() << "+#" << interaction.getId2() << ": " << what << " is " << value << "; " << allowed << ".";
-		throw std::runtime_error(message.str());
-	}
+[[noreturn]] void refuse(const Interaction& interaction, const char* what, Real value, const char* allowed)
+{
+	std::ostringstream message;
+	message << "contact #" << interaction.getId1() << "+#" << interaction.getId2() << ": " << what << " is " << value << "; " << allowed << ".";
+	throw std::runtime_error(message.str());
+}
 
-	ContactDynamicsPhys* contactDynamicsPhys(const Interaction& interaction)
-	{
-		IPhys* phys = interaction.phys.get();
-		if (!phys || !interaction.geom) return nullptr;
-		if (typeid(*phys) == typeid(ContactDynamicsPhys)) return static_cast<ContactDynamicsPhys*>(phys); // the common case, without a walk through the bases
-		return dynamic_cast<ContactDynamicsPhys*>(phys);
-	}
+ContactDynamicsPhys* contactDynamicsPhys(const Interaction& interaction)
+{
+	IPhys* phys = interaction.phys.get();
+	if (!phys || !interaction.geom) return nullptr;
+	if (typeid(*phys) == typeid(ContactDynamicsPhys))
+		return static_cast<ContactDynamicsPhys*>(phys); // the common case, without a walk through the bases
+	return dynamic_cast<ContactDynamicsPhys*>(phys);
+}
 
-	const char* nameOf(contactdynamics::ContactStatus status)
-	{
-		switch (status) {
-			case contactdynamics::ContactStatus::sticking: return "sticking";
-			case contactdynamics::ContactStatus::sliding: return "sliding";
-			default: return "none";
-		}
+const char* nameOf(contactdynamics::ContactStatus status)
+{
+	switch (status) {
+	case contactdynamics::ContactStatus::sticking:
+		return "sticking";
+	case contactdynamics::ContactStatus::sliding:
+		return "sliding";
+	default:
+		return "none";
 	}
 }
+} // namespace
 
 void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan)
 {
-	solved           = false;
-	h                = plan.h;
-	velGrad          = plan.velGrad;
+	solved = false;
+	h = plan.h;
+	velGrad = plan.velGrad;
 	displacementAsVelocity = plan.velocityOfDisplacement();
 	const long count = static_cast<long>(scene.bodies->size());
 	views.assign(count, BodyView());
@@ -73,10 +77,10 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 	problem.bodies.resize(idOfIndex.size());
 
 	parallelLoop(static_cast<long>(idOfIndex.size()), [&](long index) {
-		const int   id     = idOfIndex[index];
-		const Body& body   = *(*scene.bodies)[id];
-		Vector3r    force  = scene.forces.getForce(id);
-		Vector3r    torque = scene.forces.getTorque(id);
+		const int id = idOfIndex[index];
+		const Body& body = *(*scene.bodies)[id];
+		Vector3r force = scene.forces.getForce(id);
+		Vector3r torque = scene.forces.getTorque(id);
 		if (body.isClump()) {
 			for (const auto& member : static_cast<const Clump&>(*body.shape).members) {
 				const Vector3r& onMember = scene.forces.getForce(member.first);
@@ -85,26 +89,28 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 			}
 		}
 		const FreeMotion& motion = motions[index] = predictFreeMotion(scene, plan, body, force, torque);
-		problem.bodies[index]                     = { motion.velocity, motion.angularVelocity, motion.inverseMass, motion.inverseInertia };
-		free[index]                               = { motion.velocity, motion.angularVelocity };
+		problem.bodies[index] = {motion.velocity, motion.angularVelocity, motion.inverseMass, motion.inverseInertia};
+		free[index] = {motion.velocity, motion.angularVelocity};
 	});
 
 	parallelLoop(count, [&](long id) {
 		const auto& body = (*scene.bodies)[id];
 		if (!body) return;
 		BodyView& view = views[id];
-		view.state     = body->state.get();
-		view.member    = body->isClumpMember();
+		view.state = body->state.get();
+		view.member = body->isClumpMember();
 		if (view.member) {
 			view.index = views[body->clumpId].index;
 			if (view.index < 0)
-				throw std::runtime_error("body #" + std::to_string(id) + " is a member of clump #" + std::to_string(body->clumpId) + ", which does not exist (any more).");
+				throw std::runtime_error("body #" + std::to_string(id) + " is a member of clump #" + std::to_string(body->clumpId) +
+										 ", which does not exist (any more).");
 		}
-		if (const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get())) view.radius = sphere->radius;
+		if (const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get()))
+			view.radius = sphere->radius;
 		else
 			view.facet = dynamic_cast<const Facet*>(body->shape.get());
 		view.fixed = immobile(motions[view.index]);
-		view.ball  = view.fixed || (view.radius > 0 && !view.member && isotropic(motions[view.index]));
+		view.ball = view.fixed || (view.radius > 0 && !view.member && isotropic(motions[view.index]));
 	});
 }
 
@@ -113,8 +119,7 @@ void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 	// Each body keeps its interactions sorted by the other id, under the smaller of the two ids: walking the bodies gives an order
 	// that depends on nothing but ids, without a sort. Threads take consecutive ranges of bodies.
 	gathered.resize(omp_get_max_threads());
-	for (auto& ofThread : gathered)
-		ofThread.clear();
+	for (auto& ofThread : gathered) ofThread.clear();
 	parallelLoop(static_cast<long>(views.size()), [&](long id) {
 		const auto& body = (*scene.bodies)[id];
 		if (!body) return;
@@ -125,22 +130,23 @@ void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 	links.clear();
 	for (const auto& ofThread : gathered)
 		for (Interaction* interaction : ofThread)
-			links.push_back({ interaction, contactDynamicsPhys(*interaction), false, true, Vector3r::Zero(), Vector3r::Zero(), 0 });
+			links.push_back({interaction, contactDynamicsPhys(*interaction), false, true, Vector3r::Zero(), Vector3r::Zero(), 0});
 }
 
 void ContactDynamicsStep::dropDoubledFacetContacts(const Scene& scene)
 {
 	std::vector<FacetContact> contacts;
-	std::vector<Link*>        ofContact;
+	std::vector<Link*> ofContact;
 	for (Link& link : links) {
 		const Interaction& interaction = *link.interaction;
-		const BodyView&    view        = views[interaction.getId1()];
+		const BodyView& view = views[interaction.getId1()];
 		if (!view.facet) continue;
-		const ScGeom& geom   = static_cast<const ScGeom&>(*interaction.geom);
-		Vector3r      origin = view.state->pos - views[interaction.getId2()].state->pos;
+		const ScGeom& geom = static_cast<const ScGeom&>(*interaction.geom);
+		Vector3r origin = view.state->pos - views[interaction.getId2()].state->pos;
 		if (scene.isPeriodic) origin -= scene.cell->hSize * interaction.cellDist.cast<Real>();
 		const auto corner = [&](int i) { return Vector3r(origin + view.state->ori * view.facet->vertices[i]); };
-		contacts.push_back({ interaction.getId2(), interaction.getId1(), -(geom.refR2 - geom.penetrationDepth) * geom.normal, { corner(0), corner(1), corner(2) } });
+		contacts.push_back(
+				{interaction.getId2(), interaction.getId1(), -(geom.refR2 - geom.penetrationDepth) * geom.normal, {corner(0), corner(1), corner(2)}});
 		ofContact.push_back(&link);
 	}
 	const std::vector<char> doubled = doubledFacetContacts(contacts);
@@ -151,20 +157,20 @@ void ContactDynamicsStep::dropDoubledFacetContacts(const Scene& scene)
 void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const
 {
 	const Interaction& interaction = *link.interaction;
-	const ScGeom&      geom        = static_cast<const ScGeom&>(*interaction.geom);
-	const BodyView&    view1       = views[interaction.getId1()];
-	const BodyView&    view2       = views[interaction.getId2()];
-	const Vector3r     shift       = scene.isPeriodic ? Vector3r(scene.cell->hSize * interaction.cellDist.cast<Real>()) : Vector3r(Vector3r::Zero());
+	const ScGeom& geom = static_cast<const ScGeom&>(*interaction.geom);
+	const BodyView& view1 = views[interaction.getId1()];
+	const BodyView& view2 = views[interaction.getId2()];
+	const Vector3r shift = scene.isPeriodic ? Vector3r(scene.cell->hSize * interaction.cellDist.cast<Real>()) : Vector3r(Vector3r::Zero());
 
 	// The contact point lies in the middle of gap or overlap. For spheres the arms come from the radii, exactly along the normal.
-	contact        = contactdynamics::Contact();
+	contact = contactdynamics::Contact();
 	contact.normal = geom.normal;
-	link.gap       = -geom.penetrationDepth;
-	link.arm1      = view1.radius > 0 ? Vector3r((view1.radius + 0.5 * link.gap) * geom.normal) : Vector3r(geom.contactPoint - view1.state->pos);
-	link.arm2      = view2.radius > 0 ? Vector3r(-(view2.radius + 0.5 * link.gap) * geom.normal) : Vector3r(geom.contactPoint - view2.state->pos - shift);
-	contact.body1  = view1.index;
-	contact.body2  = view2.index;
-	contact.ball   = view1.ball && view2.ball;
+	link.gap = -geom.penetrationDepth;
+	link.arm1 = view1.radius > 0 ? Vector3r((view1.radius + 0.5 * link.gap) * geom.normal) : Vector3r(geom.contactPoint - view1.state->pos);
+	link.arm2 = view2.radius > 0 ? Vector3r(-(view2.radius + 0.5 * link.gap) * geom.normal) : Vector3r(geom.contactPoint - view2.state->pos - shift);
+	contact.body1 = view1.index;
+	contact.body2 = view2.index;
+	contact.ball = view1.ball && view2.ball;
 	// An image is carried by the cell: at the next step it stands at pos + hSize·cellDist with the hSize of then.
 	if (scene.isPeriodic) contact.imageVelocity = velGrad * shift;
 
@@ -188,11 +194,11 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 	if (link.swapped) {
 		std::swap(contact.body1, contact.body2);
 		std::swap(contact.arm1, contact.arm2);
-		contact.normal        = -contact.normal;
+		contact.normal = -contact.normal;
 		contact.imageVelocity = -contact.imageVelocity;
 	}
 	contact.friction = link.phys->tangensOfFrictionAngle;
-	link.solved      = link.solved && contact.body1 != contact.body2 && !(view1.fixed && view2.fixed);
+	link.solved = link.solved && contact.body1 != contact.body2 && !(view1.fixed && view2.fixed);
 }
 
 void ContactDynamicsStep::requireUsable(const Link& link, const contactdynamics::Contact& contact) const
@@ -200,10 +206,8 @@ void ContactDynamicsStep::requireUsable(const Link& link, const contactdynamics:
 	if (!std::isfinite(link.gap) || !contact.normal.allFinite())
 		refuse(*link.interaction, "the gap", link.gap, "it must be finite; see size and position of the two bodies");
 	if (!(contact.friction >= 0 && std::isfinite(contact.friction)))
-		refuse(*link.interaction,
-		       "the friction coefficient (ContactDynamicsPhys.tangensOfFrictionAngle)",
-		       contact.friction,
-		       "it must be finite and not negative");
+		refuse(*link.interaction, "the friction coefficient (ContactDynamicsPhys.tangensOfFrictionAngle)", contact.friction,
+			   "it must be finite and not negative");
 	if (!link.phys->isPlain())
 		link.phys->requireUsable([&](const char* what, Real value, const char* allowed) { refuse(*link.interaction, what, value, allowed); });
 	if (!link.phys->impulse.allFinite())
@@ -212,9 +216,9 @@ void ContactDynamicsStep::requireUsable(const Link& link, const contactdynamics:
 
 ContactDynamicsStep::Twist ContactDynamicsStep::atStart(int index) const
 {
-	if (!motions[index].moved) return { Vector3r::Zero(), Vector3r::Zero() };
+	if (!motions[index].moved) return {Vector3r::Zero(), Vector3r::Zero()};
 	const State& state = *views[idOfIndex[index]].state;
-	return { state.vel, state.angVel };
+	return {state.vel, state.angVel};
 }
 
 Vector3r ContactDynamicsStep::relativeVelocity(const contactdynamics::Contact& contact, const Twist& of1, const Twist& of2) const
@@ -226,8 +230,9 @@ Vector3r ContactDynamicsStep::relativeVelocity(const contactdynamics::Contact& c
 bool ContactDynamicsStep::forecast(const Link& link, const contactdynamics::Contact& contact) const
 {
 	if (link.gap <= 0) return true;
-	const auto closes
-	        = [&](const Twist& of1, const Twist& of2) { return link.gap + h * contact.normal.dot(relativeVelocity(contact, of1, of2)) <= 0; };
+	const auto closes = [&](const Twist& of1, const Twist& of2) {
+		return link.gap + h * contact.normal.dot(relativeVelocity(contact, of1, of2)) <= 0;
+	};
 	return closes(free[contact.body1], free[contact.body2]) || closes(atStart(contact.body1), atStart(contact.body2));
 }
 
@@ -238,12 +243,12 @@ void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string&
 	dropDoubledFacetContacts(scene);
 	problem.contacts.resize(links.size());
 	parallelLoop(static_cast<long>(links.size()), [&](long i) {
-		Link&                     link    = links[i];
+		Link& link = links[i];
 		contactdynamics::Contact& contact = problem.contacts[i];
 		describe(scene, link, contact);
 		requireUsable(link, contact);
-		link.plain          = link.phys->isPlain();
-		contact.impulse     = (link.swapped ? -warmStart : warmStart) * link.phys->impulse;
+		link.plain = link.phys->isPlain();
+		contact.impulse = (link.swapped ? -warmStart : warmStart) * link.phys->impulse;
 		contact.gapVelocity = velocitySignorini ? 0 : (quasiInelasticShock ? std::max(Real(0), link.gap) : link.gap) / h;
 		if (velocitySignorini) link.solved = link.solved && (forecast(link, contact) || ShiftedContacts::isBonded(*link.phys));
 		if (!link.solved) leaveOut(link);
@@ -252,7 +257,7 @@ void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string&
 	for (std::size_t i = 0; i < links.size(); i++) {
 		if (!links[i].solved) continue;
 		if (kept != i) {
-			links[kept]            = links[i];
+			links[kept] = links[i];
 			problem.contacts[kept] = problem.contacts[i];
 		}
 		kept++;
@@ -270,11 +275,8 @@ void ContactDynamicsStep::shiftContacts(Real warmStart)
 		const Link& link = links[i];
 		if (link.plain) continue;
 		const contactdynamics::Contact& contact = problem.contacts[i];
-		shifted.shift(
-		        problem,
-		        static_cast<int>(i),
-		        *link.phys,
-		        { link.gap, relativeVelocity(contact, atStart(contact.body1), atStart(contact.body2)), forecast(link, contact), link.swapped });
+		shifted.shift(problem, static_cast<int>(i), *link.phys,
+					  {link.gap, relativeVelocity(contact, atStart(contact.body1), atStart(contact.body2)), forecast(link, contact), link.swapped});
 		if (link.phys->rollingArm > 0 || link.phys->twistingArm > 0) rolling.add(static_cast<int>(i), *link.phys, link.swapped, warmStart);
 	}
 }
@@ -282,64 +284,63 @@ void ContactDynamicsStep::shiftContacts(Real warmStart)
 /// A pair that takes no part in the solve: no reaction, and the local velocity left from an earlier step would mislead.
 void ContactDynamicsStep::leaveOut(Link& link)
 {
-	link.phys->gap           = link.gap;
-	link.phys->status        = "none";
-	link.phys->impulse       = Vector3r::Zero();
-	link.phys->normalForce   = Vector3r::Zero();
-	link.phys->shearForce    = Vector3r::Zero();
+	link.phys->gap = link.gap;
+	link.phys->status = "none";
+	link.phys->impulse = Vector3r::Zero();
+	link.phys->normalForce = Vector3r::Zero();
+	link.phys->shearForce = Vector3r::Zero();
 	link.phys->localVelocity = Vector3r::Zero();
 }
 
 contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxIterations)
 {
 	contactdynamics::SolverOptions options;
-	options.tolerance     = tolerance;
+	options.tolerance = tolerance;
 	options.maxIterations = maxIterations;
-	options.threads       = omp_get_max_threads();
-	const auto report     = rolling.empty() ? solver.solve(problem, options) : rolling.solve(solver, problem, options);
-	solved                = report.status != contactdynamics::SolveStatus::notFinite;
+	options.threads = omp_get_max_threads();
+	const auto report = rolling.empty() ? solver.solve(problem, options) : rolling.solve(solver, problem, options);
+	solved = report.status != contactdynamics::SolveStatus::notFinite;
 	return report;
 }
 
 void ContactDynamicsStep::writeBack(const Link& link, const contactdynamics::Contact& contact) const
 {
-	ContactDynamicsPhys& phys   = *link.phys;
-	const Real           sign   = link.swapped ? -1 : 1;
-	const Vector3r       normal = sign * contact.normal;
-	const Vector3r       force  = sign / h * contact.impulse;
-	phys.impulse                = sign * contact.impulse;
-	phys.normalForce            = normal.dot(force) * normal;
-	phys.shearForce             = force - phys.normalForce;
-	phys.gap                    = link.gap;
-	phys.localVelocity          = localFrame(normal) * (sign * contact.relativeVelocity);
-	phys.status                 = nameOf(contact.status);
+	ContactDynamicsPhys& phys = *link.phys;
+	const Real sign = link.swapped ? -1 : 1;
+	const Vector3r normal = sign * contact.normal;
+	const Vector3r force = sign / h * contact.impulse;
+	phys.impulse = sign * contact.impulse;
+	phys.normalForce = normal.dot(force) * normal;
+	phys.shearForce = force - phys.normalForce;
+	phys.gap = link.gap;
+	phys.localVelocity = localFrame(normal) * (sign * contact.relativeVelocity);
+	phys.status = nameOf(contact.status);
 }
 
 void ContactDynamicsStep::apply(Scene& scene)
 {
 	bonded.assign(scene.trackEnergy ? links.size() : 0, 0);
-	for (std::size_t i = 0; i < bonded.size(); i++)
-		bonded[i] = ShiftedContacts::isBonded(*links[i].phys);
+	for (std::size_t i = 0; i < bonded.size(); i++) bonded[i] = ShiftedContacts::isBonded(*links[i].phys);
 	shifted.restore(problem);
 	rolling.remember();
 	parallelLoop(static_cast<long>(links.size()), [&](long i) { writeBack(links[i], problem.contacts[i]); });
 
 	// One sum a body, in the order of the contacts: adding from several threads would make the last bits depend on their number.
-	loads.assign(views.size(), { Vector3r::Zero(), Vector3r::Zero() });
-	activeContacts    = 0;
-	maxPenetration    = 0;
+	loads.assign(views.size(), {Vector3r::Zero(), Vector3r::Zero()});
+	activeContacts = 0;
+	maxPenetration = 0;
 	Real penetrations = 0;
 	for (std::size_t i = 0; i < links.size(); i++) {
-		const contactdynamics::Contact& contact     = problem.contacts[i];
-		const Link&                     link        = links[i];
-		const Real                      penetration = std::max(Real(0), -link.gap);
-		maxPenetration                              = std::max(maxPenetration, penetration);
+		const contactdynamics::Contact& contact = problem.contacts[i];
+		const Link& link = links[i];
+		const Real penetration = std::max(Real(0), -link.gap);
+		maxPenetration = std::max(maxPenetration, penetration);
 		if (contact.impulse == Vector3r::Zero()) continue;
 		activeContacts++;
 		penetrations += penetration;
 		const Vector3r force = (link.swapped ? -1 : 1) / h * contact.impulse;
-		Load&          on1   = loads[link.interaction->getId1()];
-		Load&          on2   = loads[link.interaction->getId2()];
+		Load& on1 = loads[link.interaction->getId1()];
+		Load& on2 = loads[link.interaction->getId2()];
 		on1.force -= force;
 		on1.torque -= link.arm1.cross(force);
 		on2.force += force;

@@ -25,25 +25,25 @@ struct ContactDynamicsStep {
 	};
 
 	contactdynamics::GrainProblem problem;
-	std::vector<Twist>            free;                // free velocities by solver index
-	PenetrationRepair             repair;
-	int                           planeAxis       = -1; // normal to the plane of a two-dimensional scene, see PlaneOfMotion
-	int                           activeContacts  = 0; // of the last apply()
-	Real                          maxPenetration  = 0; // [m]
-	Real                          meanPenetration = 0; // [m], mean over the active contacts
-	Real                          elasticEnergy   = 0; // of compliant contacts [J], while O.trackEnergy
+	std::vector<Twist> free; // free velocities by solver index
+	PenetrationRepair repair;
+	int planeAxis = -1;		  // normal to the plane of a two-dimensional scene, see PlaneOfMotion
+	int activeContacts = 0;	  // of the last apply()
+	Real maxPenetration = 0;  // [m]
+	Real meanPenetration = 0; // [m], mean over the active contacts
+	Real elasticEnergy = 0;	  // of compliant contacts [J], while O.trackEnergy
 
 	void collectBodies(Scene& scene, const IntegratorPlan& plan);
 	/// @param warmStart  factor for the stored impulses: ratio of time steps, or 0 to start from nothing
-	void                         collectContacts(const Scene& scene, const std::string& contactLaw, Real warmStart);
+	void collectContacts(const Scene& scene, const std::string& contactLaw, Real warmStart);
 	/// After collectContacts(): recognises a two-dimensional scene, whose disks are solved as balls.
-	void                         usePlane();
+	void usePlane();
 	contactdynamics::SolveReport solve(Real tolerance, int maxIterations);
-	void                         apply(Scene& scene);
+	void apply(Scene& scene);
 	/// After apply(): displaces bodies that overlap, see PenetrationRepair; a rate of 0 only measures.
 	void repairPenetration(Scene& scene, Real rate, Real allowed);
 
-	std::vector<Twist>  end() const; // velocities at the end of the step by solver index
+	std::vector<Twist> end() const; // velocities at the end of the step by solver index
 	boost::python::list velocitiesById(const std::vector<Twist>& twists) const;
 	boost::python::list angularMomentaById() const;
 	boost::python::dict asDictionary() const; // see ContactDynamicsEngine.lastProblem
@@ -51,23 +51,23 @@ struct ContactDynamicsStep {
 private:
 	/// What the contacts need of a body, looked up once a step instead of once a contact.
 	struct BodyView {
-		const State* state  = nullptr; // null: erased
-		const Facet* facet  = nullptr; // null: no facet
-		Real         radius = 0;       // 0: no sphere [m]
-		int          index  = -1;      // into problem.bodies; that of the clump for a member
-		bool         member = false;   // of a clump
-		bool         ball   = false;   // an impulse through the centre does not turn it, and all directions are alike
-		bool         fixed  = false;   // no impulse moves it
+		const State* state = nullptr; // null: erased
+		const Facet* facet = nullptr; // null: no facet
+		Real radius = 0;			  // 0: no sphere [m]
+		int index = -1;				  // into problem.bodies; that of the clump for a member
+		bool member = false;		  // of a clump
+		bool ball = false;			  // an impulse through the centre does not turn it, and all directions are alike
+		bool fixed = false;			  // no impulse moves it
 	};
 	/// What links a contact of the problem with the scene. A pair of spheres enters the problem with the smaller id first, whatever order
 	/// YADE chose: that order may differ after O.load, and with it the last bits.
 	struct Link {
-		Interaction*         interaction;
+		Interaction* interaction;
 		ContactDynamicsPhys* phys;
-		bool                 swapped, solved;
-		Vector3r             arm1, arm2; // from the positions of the two bodies (not of their clumps) to the contact point [m]
-		Real                 gap;        // [m]
-		bool                 plain = true; // see ContactDynamicsPhys::isPlain
+		bool swapped, solved;
+		Vector3r arm1, arm2; // from the positions of the two bodies (not of their clumps) to the contact point [m]
+		Real gap;			 // [m]
+		bool plain = true;	 // see ContactDynamicsPhys::isPlain
 	};
 	struct Load {
 		Vector3r force, torque;
@@ -78,28 +78,28 @@ private:
 	void describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const;
 	void requireUsable(const Link& link, const contactdynamics::Contact& contact) const;
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;
-	Twist    atStart(int index) const;
+	Twist atStart(int index) const;
 	Vector3r relativeVelocity(const contactdynamics::Contact& contact, const Twist& of1, const Twist& of2) const;
-	void     shiftContacts(Real warmStart);
-	void     trackEnergy(Scene& scene);
+	void shiftContacts(Real warmStart);
+	void trackEnergy(Scene& scene);
 	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
 	static void leaveOut(Link& link);
 	Real radiusOf(const Link& link) const;
 
-	bool                                    solved = false; // problem holds a solution
-	Real                                    h = 0;
-	Matrix3r                                velGrad; // that the integrator will apply, for the velocity of periodic images
-	Matrix3r                                displacementAsVelocity; // see IntegratorPlan::velocityOfDisplacement [1/s]
-	std::vector<PenetrationRepair::Overlap> overlaps;               // parallel to links
-	std::vector<BodyView>                   views;   // by body id
-	std::vector<int>                        idOfIndex;
-	std::vector<FreeMotion>                 motions;                 // by solver index
-	std::vector<std::vector<Interaction*>>  gathered;                // by thread
-	std::vector<Link>                       links;                   // parallel to problem.contacts once collected
-	std::vector<Load>                       loads;                   // contact force and torque by body id
-	ShiftedContacts                         shifted;
-	RollingFriction                         rolling;
-	std::vector<char>                       bonded; // by contact, while energy is tracked: a bond may break in the step
+	bool solved = false; // problem holds a solution
+	Real h = 0;
+	Matrix3r velGrad;								  // that the integrator will apply, for the velocity of periodic images
+	Matrix3r displacementAsVelocity;				  // see IntegratorPlan::velocityOfDisplacement [1/s]
+	std::vector<PenetrationRepair::Overlap> overlaps; // parallel to links
+	std::vector<BodyView> views;					  // by body id
+	std::vector<int> idOfIndex;
+	std::vector<FreeMotion> motions;				 // by solver index
+	std::vector<std::vector<Interaction*>> gathered; // by thread
+	std::vector<Link> links;						 // parallel to problem.contacts once collected
+	std::vector<Load> loads;						 // contact force and torque by body id
+	ShiftedContacts shifted;
+	RollingFriction rolling;
+	std::vector<char> bonded; // by contact, while energy is tracked: a bond may break in the step
 	contactdynamics::SignoriniCoulombSolver solver;
 };
 

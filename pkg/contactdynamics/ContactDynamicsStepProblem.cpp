@@ -9,27 +9,28 @@
 
 namespace yade {
 namespace {
-	template <class Matrix> void append(boost::python::list& list, const Matrix& rows)
-	{
-		for (int row = 0; row < rows.rows(); row++)
-			for (int column = 0; column < rows.cols(); column++)
-				list.append(rows(row, column));
-	}
+template <class Matrix> void append(boost::python::list& list, const Matrix& rows)
+{
+	for (int row = 0; row < rows.rows(); row++)
+		for (int column = 0; column < rows.cols(); column++) list.append(rows(row, column));
 }
+} // namespace
 
 boost::python::dict ContactDynamicsStep::asDictionary() const
 {
-	if (!solved) throw std::runtime_error("ContactDynamicsEngine.lastProblem: no step has been solved yet (or the last one ended with an error before the solve).");
-	const std::size_t                  count = problem.contacts.size();
-	std::vector<Matrix3r>              frames(count);
-	std::vector<std::vector<int>>      contactsOf(problem.bodies.size());
-	const contactdynamics::GrainProblem  grains = shifted.asSolved(problem);
+	if (!solved)
+		throw std::runtime_error(
+				"ContactDynamicsEngine.lastProblem: no step has been solved yet (or the last one ended with an error before the solve).");
+	const std::size_t count = problem.contacts.size();
+	std::vector<Matrix3r> frames(count);
+	std::vector<std::vector<int>> contactsOf(problem.bodies.size());
+	const contactdynamics::GrainProblem grains = shifted.asSolved(problem);
 	for (std::size_t i = 0; i < count; i++) {
 		const auto& contact = grains.contacts[i];
 		// A swapped contact stands in the problem with the opposite normal; its components stay those of the YADE interaction.
 		const Real sign = links[i].swapped ? -1 : 1;
-		frames[i]       = sign * localFrame(sign * contact.normal);
-		for (const int body : { contact.body1, contact.body2 }) {
+		frames[i] = sign * localFrame(sign * contact.normal);
+		for (const int body : {contact.body1, contact.body2}) {
 			const auto& own = grains.bodies[body];
 			// A body that nothing moves links no contacts: those of a wall with each other would be their number squared.
 			if (!own.inverseMass.isZero(0) || !own.inverseInertia.isZero(0)) contactsOf[body].push_back(static_cast<int>(i));
@@ -40,19 +41,19 @@ boost::python::dict ContactDynamicsStep::asDictionary() const
 	rowStart.append(0);
 	std::size_t entries = 0;
 	for (std::size_t i = 0; i < count; i++) {
-		const auto&             contact = grains.contacts[i];
+		const auto& contact = grains.contacts[i];
 		std::map<int, Matrix3r> row;
 		row[static_cast<int>(i)] = Matrix3r::Zero();
-		for (const int body : { contact.body1, contact.body2 }) {
-			const auto&    own  = grains.bodies[body];
-			const bool     is2  = body == contact.body2;
+		for (const int body : {contact.body1, contact.body2}) {
+			const auto& own = grains.bodies[body];
+			const bool is2 = body == contact.body2;
 			const Vector3r armI = is2 ? contact.arm2 : contact.arm1;
 			for (const int j : contactsOf[body]) {
-				const auto& other   = grains.contacts[j];
-				const bool  other2  = body == other.body2;
-				Matrix3r&   W       = row.emplace(j, Matrix3r::Zero()).first->second;
+				const auto& other = grains.contacts[j];
+				const bool other2 = body == other.body2;
+				Matrix3r& W = row.emplace(j, Matrix3r::Zero()).first->second;
 				for (int k = 0; k < 3; k++) { // velocity at contact i from a unit impulse along axis k of contact j
-					const Vector3r push   = (is2 == other2 ? 1 : -1) * frames[j].row(k).transpose();
+					const Vector3r push = (is2 == other2 ? 1 : -1) * frames[j].row(k).transpose();
 					const Vector3r turned = own.inverseInertia * (other2 ? other.arm2 : other.arm1).cross(push);
 					W.col(k) += frames[i] * (own.inverseMass.cwiseProduct(push) + turned.cross(armI));
 				}
@@ -63,9 +64,8 @@ boost::python::dict ContactDynamicsStep::asDictionary() const
 		row[static_cast<int>(i)].diagonal() += compliance;
 		const Vector3r gapVelocity(contact.gapVelocity, 0, 0), own = frames[i] * contact.impulse;
 		const Vector3r u = frames[i] * contact.relativeVelocity + gapVelocity + compliance.cwiseProduct(own);
-		Vector3r       left = u;
-		for (const auto& [j, W] : row)
-			left -= W * (frames[j] * grains.contacts[j].impulse);
+		Vector3r left = u;
+		for (const auto& [j, W] : row) left -= W * (frames[j] * grains.contacts[j].impulse);
 		for (const auto& [j, W] : row) {
 			column.append(j);
 			append(blocks, W);
@@ -82,14 +82,14 @@ boost::python::dict ContactDynamicsStep::asDictionary() const
 	}
 	boost::python::dict result;
 	result["dimension"] = 3;
-	result["rowStart"]  = rowStart;
-	result["column"]    = column;
-	result["blocks"]    = blocks;
-	result["q"]         = q;
-	result["friction"]  = friction;
-	result["impulse"]   = impulse;
-	result["velocity"]  = velocity;
-	result["bodies"]    = bodies;
+	result["rowStart"] = rowStart;
+	result["column"] = column;
+	result["blocks"] = blocks;
+	result["q"] = q;
+	result["friction"] = friction;
+	result["impulse"] = impulse;
+	result["velocity"] = velocity;
+	result["bodies"] = bodies;
 	return result;
 }
 

@@ -7,28 +7,29 @@
 
 namespace yade {
 namespace {
-	struct Report {
-		std::pair<int, int> ids;
-		std::string         message;
-	};
-	std::mutex                     guard;
-	std::map<const Scene*, Report> reports; // almost always empty
-}
+struct Report {
+	std::pair<int, int> ids;
+	std::string message;
+};
+std::mutex guard;
+std::map<const Scene*, Report> reports; // almost always empty
+} // namespace
 
 void DeferredError::report(const Scene* scene, int id1, int id2, const std::string& message)
 {
 	const std::lock_guard<std::mutex> lock(guard);
-	const std::pair<int, int>         ids(id1, id2);
-	const auto                        known = reports.find(scene);
-	if (known == reports.end()) reports[scene] = { ids, message };
+	const std::pair<int, int> ids(id1, id2);
+	const auto known = reports.find(scene);
+	if (known == reports.end())
+		reports[scene] = {ids, message};
 	else if (ids < known->second.ids)
-		known->second = { ids, message };
+		known->second = {ids, message};
 }
 
 void DeferredError::raise(const Scene* scene)
 {
 	const std::lock_guard<std::mutex> lock(guard);
-	const auto                        known = reports.find(scene);
+	const auto known = reports.find(scene);
 	if (known == reports.end()) return;
 	const std::string message = known->second.message;
 	reports.erase(known);

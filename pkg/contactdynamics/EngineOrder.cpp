@@ -8,17 +8,17 @@
 
 namespace yade {
 namespace {
-	void require(bool fulfilled, const std::string& message)
-	{
-		if (!fulfilled) throw std::runtime_error("ContactDynamicsEngine: " + message + " contactdynamics.engines() returns a list in the right order.");
-	}
+void require(bool fulfilled, const std::string& message)
+{
+	if (!fulfilled) throw std::runtime_error("ContactDynamicsEngine: " + message + " contactdynamics.engines() returns a list in the right order.");
 }
+} // namespace
 
 const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& engine)
 {
 	const NewtonIntegrator* newton = nullptr;
-	bool                    resetBefore = false, loopBefore = false, passed = false, newtonBehind = false;
-	int                     integrators = 0;
+	bool resetBefore = false, loopBefore = false, passed = false, newtonBehind = false;
+	int integrators = 0;
 	for (const auto& other : scene.engines) {
 		if (other.get() == &engine) {
 			passed = true;
@@ -26,13 +26,14 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 		}
 		if (!other || other->dead) continue;
 		const std::string name = other->getClassName();
-		require(name != engine.getClassName(), "there are two of them in O.engines; one engine solves all contacts of the scene. Remove one or set it dead.");
-		require(name != "GlobalStiffnessTimeStepper",
-		        "GlobalStiffnessTimeStepper stands in O.engines, but rigid contacts have no stiffness to take a time step from. Remove it and set O.dt.");
+		require(name != engine.getClassName(),
+				"there are two of them in O.engines; one engine solves all contacts of the scene. Remove one or set it dead.");
+		require(name != "GlobalStiffnessTimeStepper", "GlobalStiffnessTimeStepper stands in O.engines, but rigid contacts have no stiffness to take "
+													  "a time step from. Remove it and set O.dt.");
 		if (name == "ForceResetter") resetBefore |= !passed;
 		if (name == "InteractionLoop") loopBefore |= !passed;
 		if (const auto* candidate = dynamic_cast<const NewtonIntegrator*>(other.get())) {
-			newton       = candidate;
+			newton = candidate;
 			newtonBehind = passed;
 			integrators++;
 		}
@@ -41,11 +42,12 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 	require(integrators == 1, "there are " + std::to_string(integrators) + " live NewtonIntegrators in O.engines; exactly one may move the bodies.");
 	require(newtonBehind, "NewtonIntegrator stands before this engine in O.engines, so the contact forces would not act; put it behind.");
 	require(resetBefore, "no ForceResetter stands before this engine in O.engines, so forces of past steps would add up; make it the first engine.");
-	require(loopBefore, "no InteractionLoop stands before this engine in O.engines, so there are no contacts to solve; put it between collider and engine.");
+	require(loopBefore,
+			"no InteractionLoop stands before this engine in O.engines, so there are no contacts to solve; put it between collider and engine.");
 	std::ostringstream damping;
 	damping << newton->damping;
 	require(newton->damping == 0,
-	        "NewtonIntegrator.damping is " + damping.str() + "; it must be 0: damped velocities no longer satisfy the contact law.");
+			"NewtonIntegrator.damping is " + damping.str() + "; it must be 0: damped velocities no longer satisfy the contact law.");
 	return *newton;
 }
 

@@ -8,9 +8,9 @@ namespace yade {
 
 /// Contact of a sphere with a facet, everything relative to the sphere's centre.
 struct FacetContact {
-	int                     sphere, facet; // body ids
-	Vector3r                onFacet;       // nearest point of the facet [m]
-	std::array<Vector3r, 3> corners;       // of the facet [m]
+	int sphere, facet;				 // body ids
+	Vector3r onFacet;				 // nearest point of the facet [m]
+	std::array<Vector3r, 3> corners; // of the facet [m]
 };
 
 /// Which contacts belong to a surface that another facet already gives: a sphere above a flat mesh touches the face below it, and the

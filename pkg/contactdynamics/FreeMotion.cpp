@@ -8,21 +8,15 @@
 namespace yade {
 
 IntegratorPlan::IntegratorPlan(const Scene& scene, const NewtonIntegrator& newton)
-        : h(scene.dt)
-        , gravity(newton.gravity)
-        , mask(newton.mask)
-        , homoDeform(scene.cell->homoDeform)
-        , exactAsphericalRot(newton.exactAsphericalRot)
-        , densityScaling(newton.densityScaling)
-        , periodic(scene.isPeriodic)
-        , prevVelGrad(newton.prevVelGrad)
+	: h(scene.dt), gravity(newton.gravity), mask(newton.mask), homoDeform(scene.cell->homoDeform), exactAsphericalRot(newton.exactAsphericalRot),
+	  densityScaling(newton.densityScaling), periodic(scene.isPeriodic), prevVelGrad(newton.prevVelGrad)
 {
-	const Cell& cell    = *scene.cell;
-	const bool  changes = cell.velGradChanged || cell.nextVelGrad != Matrix3r::Zero();
-	velGrad             = changes ? cell.nextVelGrad : cell.velGrad;
-	velGradChange       = velGrad - prevVelGrad;
+	const Cell& cell = *scene.cell;
+	const bool changes = cell.velGradChanged || cell.nextVelGrad != Matrix3r::Zero();
+	velGrad = changes ? cell.nextVelGrad : cell.velGrad;
+	velGradChange = velGrad - prevVelGrad;
 	const Matrix3r spin = .5 * (velGradChange - velGradChange.transpose());
-	spinChange          = Vector3r(-spin(1, 2), spin(0, 2), -spin(0, 1));
+	spinChange = Vector3r(-spin(1, 2), spin(0, 2), -spin(0, 1));
 }
 
 Matrix3r IntegratorPlan::velocityOfDisplacement() const
@@ -36,12 +30,12 @@ FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, con
 {
 	requireUsableState(body, force, torque);
 	const State& state = *body.state;
-	FreeMotion   free;
-	free.velocity        = state.vel;
+	FreeMotion free;
+	free.velocity = state.vel;
 	free.angularVelocity = state.angVel;
 	if (plan.mask > 0 && !body.maskCompatible(plan.mask)) { // whatever its velocity says, it stays where it is
 		free.velocity = free.angularVelocity = Vector3r::Zero();
-		free.moved                           = false;
+		free.moved = false;
 	}
 #ifdef YADE_MPI
 	free.moved = free.moved && scene.subdomain == body.subdomain && !body.getIsSubdomain() && !body.getIsFluidDomainBbox();
@@ -52,11 +46,11 @@ FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, con
 	if (body.isDynamic()) {
 		const Real scaling = plan.densityScaling ? state.densityScaling : 1;
 		requirePositiveScaling(body, scaling);
-		Vector3r   acceleration = Vector3r::Zero();
+		Vector3r acceleration = Vector3r::Zero();
 		for (int axis = 0; axis < 3; axis++) {
 			if (state.blockedDOFs & State::axisDOF(axis, false)) continue;
 			acceleration[axis] = (force[axis] / state.mass + plan.gravity[axis]) * scaling;
-			free.inverseMass[axis]  = scaling / state.mass;
+			free.inverseMass[axis] = scaling / state.mass;
 		}
 		if (plan.periodic && plan.homoDeform > 1) acceleration += plan.prevVelGrad * state.vel;
 		free.velocity += h * acceleration;
@@ -64,9 +58,9 @@ FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, con
 		free.aspherical = plan.exactAsphericalRot && body.isAspherical() && (state.blockedDOFs & State::DOF_RXRYRZ) == State::DOF_NONE;
 		if (free.aspherical) {
 			const Matrix3r axes = state.ori.toRotationMatrix();
-			free.inverseInertia      = axes * (scaling * state.inertia.cwiseInverse()).asDiagonal() * axes.transpose();
-			free.angularMomentum     = state.angMom + h * torque;
-			free.angularVelocity     = free.inverseInertia * free.angularMomentum;
+			free.inverseInertia = axes * (scaling * state.inertia.cwiseInverse()).asDiagonal() * axes.transpose();
+			free.angularMomentum = state.angMom + h * torque;
+			free.angularVelocity = free.inverseInertia * free.angularMomentum;
 		} else {
 			Vector3r inverse = Vector3r::Zero();
 			for (int axis = 0; axis < 3; axis++)

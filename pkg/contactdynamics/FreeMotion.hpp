@@ -11,13 +11,13 @@ class Scene;
 /// What the scene's NewtonIntegrator is about to do in this step, read once. `velGrad` is the gradient it will switch to: a change asked
 /// for through O.cell.velGrad takes effect inside the integrator.
 struct IntegratorPlan {
-	Real     h; // time step [s]
+	Real h; // time step [s]
 	Vector3r gravity;
-	int      mask;
-	int      homoDeform;
-	bool     exactAsphericalRot, densityScaling, periodic;
+	int mask;
+	int homoDeform;
+	bool exactAsphericalRot, densityScaling, periodic;
 	Matrix3r velGrad, velGradChange, prevVelGrad; // [1/s]
-	Vector3r spinChange;                          // [rad/s]
+	Vector3r spinChange;						  // [rad/s]
 
 	IntegratorPlan(const Scene& scene, const NewtonIntegrator& newton);
 	/// Velocity before the step that has the same effect on the velocity after it as a displacement before the step, per displacement [1/s]:
@@ -32,12 +32,12 @@ struct IntegratorPlan {
 /// momentum. The angular velocity that enters the contact condition is then R I^-1 R^T angMom with the orientation at the start of
 /// the step; the angVel the integrator reports afterwards is turned by one step, a difference of order h.
 struct FreeMotion {
-	Vector3r velocity, angularVelocity;             // [m/s], [rad/s], global axes
-	Vector3r angularMomentum = Vector3r::Zero();    // of aspherical bodies [kg m2/s]; zero otherwise
-	Vector3r inverseMass     = Vector3r::Zero();    // per global axis [1/kg]
-	Matrix3r inverseInertia  = Matrix3r::Zero();    // global axes [1/(kg m2)]
-	bool     moved           = true;                // false: the integrator leaves the body alone (mask, other subdomain)
-	bool     aspherical      = false;               // integrated in angularMomentum
+	Vector3r velocity, angularVelocity;			 // [m/s], [rad/s], global axes
+	Vector3r angularMomentum = Vector3r::Zero(); // of aspherical bodies [kg m2/s]; zero otherwise
+	Vector3r inverseMass = Vector3r::Zero();	 // per global axis [1/kg]
+	Matrix3r inverseInertia = Matrix3r::Zero();	 // global axes [1/(kg m2)]
+	bool moved = true;							 // false: the integrator leaves the body alone (mask, other subdomain)
+	bool aspherical = false;					 // integrated in angularMomentum
 };
 
 /// @param force, torque  total external force and torque on the body, those of clump members included [N], [N m]

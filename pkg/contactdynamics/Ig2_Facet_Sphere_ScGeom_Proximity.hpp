@@ -8,14 +8,8 @@ namespace yade {
 
 class Ig2_Facet_Sphere_ScGeom_Proximity : public IGeomFunctor {
 public:
-	bool
-	go(const shared_ptr<Shape>&       shape1,
-	   const shared_ptr<Shape>&       shape2,
-	   const State&                   state1,
-	   const State&                   state2,
-	   const Vector3r&                shift2,
-	   const bool&                    force,
-	   const shared_ptr<Interaction>& interaction) override;
+	bool go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2, const Vector3r& shift2,
+			const bool& force, const shared_ptr<Interaction>& interaction) override;
 	FUNCTOR2D(Facet, Sphere);
 	DEFINE_FUNCTOR_ORDER_2D(Facet, Sphere);
 	// clang-format off

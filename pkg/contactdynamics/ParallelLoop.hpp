@@ -10,7 +10,7 @@ namespace yade {
 /// costs as much as a few hundred bodies or contacts.
 template <class Work> void parallelLoop(long count, const Work& work)
 {
-	long               firstFailed = count;
+	long firstFailed = count;
 	std::exception_ptr error;
 #pragma omp parallel for schedule(static) if (count > 500)
 	for (long i = 0; i < count; i++) {
@@ -20,7 +20,7 @@ template <class Work> void parallelLoop(long count, const Work& work)
 #pragma omp critical(contactdynamics_parallelLoop)
 			if (i < firstFailed) {
 				firstFailed = i;
-				error       = std::current_exception();
+				error = std::current_exception();
 			}
 		}
 	}

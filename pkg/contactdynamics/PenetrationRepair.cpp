@@ -5,23 +5,25 @@
 
 namespace yade {
 namespace {
-	/// The deepest overlap shrinks by this in a step, in radii, and all others in proportion ...
-	constexpr Real gentleStep = 1e-4;
-	/// ... but at least by this share, which makes a hundredth of any overlap in 770 steps.
-	constexpr Real leastShare = 6e-3;
-	/// Largest displacement of a body in a step, in radii of the smallest sphere: a fifth of the least proximity margin of a body, so that no contact comes unseen.
-	constexpr Real largestWay = 1e-2;
-	/// How far the pull c alone would move two bodies, in units of the largest displacement that is asked for. Overlaps accumulate over a stack, so it has to be many.
-	constexpr Real pull = 50;
-	/// Relative to the pull. What is left shows as overlap or gap, never as energy, and the repair goes on in the next step.
-	constexpr Real tolerance = 1e-5;
-	constexpr int sweeps	 = 500;
+/// The deepest overlap shrinks by this in a step, in radii, and all others in proportion ...
+constexpr Real gentleStep = 1e-4;
+/// ... but at least by this share, which makes a hundredth of any overlap in 770 steps.
+constexpr Real leastShare = 6e-3;
+/// Largest displacement of a body in a step, in radii of the smallest sphere: a fifth of the least proximity margin of a body, so that no contact
+/// comes unseen.
+constexpr Real largestWay = 1e-2;
+/// How far the pull c alone would move two bodies, in units of the largest displacement that is asked for. Overlaps accumulate over a stack, so it
+/// has to be many.
+constexpr Real pull = 50;
+/// Relative to the pull. What is left shows as overlap or gap, never as energy, and the repair goes on in the next step.
+constexpr Real tolerance = 1e-5;
+constexpr int sweeps = 500;
 
-	Real normalMobility(const contactdynamics::GrainProblem& problem, const contactdynamics::Contact& contact)
-	{
-		return contact.normal.dot((problem.bodies[contact.body1].inverseMass + problem.bodies[contact.body2].inverseMass).cwiseProduct(contact.normal));
-	}
+Real normalMobility(const contactdynamics::GrainProblem& problem, const contactdynamics::Contact& contact)
+{
+	return contact.normal.dot((problem.bodies[contact.body1].inverseMass + problem.bodies[contact.body2].inverseMass).cwiseProduct(contact.normal));
 }
+} // namespace
 
 /// Whether any overlap is larger than allowed.
 bool PenetrationRepair::measure(const contactdynamics::GrainProblem& solved, const std::vector<Overlap>& overlaps, Real h, Real allowed)
@@ -40,7 +42,8 @@ bool PenetrationRepair::measure(const contactdynamics::GrainProblem& solved, con
 	return deepest > allowed;
 }
 
-bool PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, const std::vector<Overlap>& overlaps, Real h, Real rate, Real allowed, int threads)
+bool PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, const std::vector<Overlap>& overlaps, Real h, Real rate, Real allowed,
+							  int threads)
 {
 	if (!measure(solved, overlaps, h, allowed) || rate == 0) return false;
 	const Real share = std::min(rate, std::max(leastShare, gentleStep / deepest));
@@ -87,11 +90,9 @@ void PenetrationRepair::letPull(contactdynamics::Contact& contact, Real displace
 /// Scaling all displacements alike keeps them admissible: the way of no contact grows.
 void PenetrationRepair::limit(Real allowedDisplacement)
 {
-	for (const auto& body : problem.bodies)
-		largest = std::max(largest, body.velocity.norm());
+	for (const auto& body : problem.bodies) largest = std::max(largest, body.velocity.norm());
 	const Real scale = largest > allowedDisplacement ? allowedDisplacement / largest : 1;
-	for (auto& body : problem.bodies)
-		body.velocity *= scale;
+	for (auto& body : problem.bodies) body.velocity *= scale;
 	largest *= scale;
 	remaining = 0;
 	for (std::size_t i = 0; i < problem.contacts.size(); i++)

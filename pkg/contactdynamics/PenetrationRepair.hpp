@@ -11,12 +11,14 @@ namespace yade {
 ///     0 <= d_N + s _|_ p_N + c >= 0,   s = g+          where g+ = gap at the end of the step + allowed overlap is >= 0: the room that is left,
 ///                                      s = share g+    where it is < 0: all overlaps shrink by the same share in a step.
 ///
-/// Nothing of it enters a velocity, so that no overlap, however large, becomes kinetic energy; with the true masses, a free cluster keeps its mass centre.
-/// A push through the velocity, as `signorini` (24) makes it, was rejected for the repair because of that energy. Bodies are moved without being turned: a turn
-/// would change the lever arms and the inertia tensor for which the contact problem has just been solved, and a translation parts any two bodies.
+/// Nothing of it enters a velocity, so that no overlap, however large, becomes kinetic energy; with the true masses, a free cluster keeps its mass
+/// centre. A push through the velocity, as `signorini` (24) makes it, was rejected for the repair because of that energy. Bodies are moved without
+/// being turned: a turn would change the lever arms and the inertia tensor for which the contact problem has just been solved, and a translation
+/// parts any two bodies.
 ///
-/// c > 0 at contacts that carry an impulse (0 elsewhere) lets them pull, so that they stay closed while their neighbours move: without it, contacts of a
-/// packing open, lose their reaction, and the grains they held fall. The solver knows no c; it gets p + c as unknown and the bodies displaced by -M^-1 H c.
+/// c > 0 at contacts that carry an impulse (0 elsewhere) lets them pull, so that they stay closed while their neighbours move: without it, contacts
+/// of a packing open, lose their reaction, and the grains they held fall. The solver knows no c; it gets p + c as unknown and the bodies displaced by
+/// -M^-1 H c.
 class PenetrationRepair {
 public:
 	/// What the repair needs to know of a contact beside the solved problem.

@@ -9,11 +9,11 @@ class Scene;
 
 /// Nearest points of two bodies as the Ig2_*_Proximity functors find them.
 struct Nearest {
-	Vector3r point;   // on the surface of body 1, global axes                 [m]
-	Vector3r normal;  // unit, from body 1 to body 2                           [-]
-	Real     gap;     // distance of the surfaces along the normal, < 0 inside [m]
-	Real     radius1; // YADE's reference radii: sphere's radius, for other shapes that of the sphere they touch [m]
-	Real     radius2;
+	Vector3r point;	 // on the surface of body 1, global axes                 [m]
+	Vector3r normal; // unit, from body 1 to body 2                           [-]
+	Real gap;		 // distance of the surfaces along the normal, < 0 inside [m]
+	Real radius1;	 // YADE's reference radii: sphere's radius, for other shapes that of the sphere they touch [m]
+	Real radius2;
 };
 
 /// True when the pair is no contact and cannot become one in the coming step: the functor then returns without making a geometry.

@@ -18,161 +18,159 @@
 
 namespace yade {
 namespace {
-	constexpr Real marginOfRadius = 0.05; // the sum over a pair is YADE's customary interactionDetectionFactor of 1.05
-	/// Below this way per step of the fastest body, in radii of the smallest sphere, its speed is granted to every body: the few more
-	/// candidates cost less than the grid.
-	constexpr Real slowStep = 0.5;
-	/// Edge of a grid cell in ways per step of the fastest body. A body gets the speed of its own and the 26 cells around, so a chain of
-	/// strikes is followed over at least this many free flights; inelastic strikes slow it down at each link.
-	constexpr Real flightsPerCell = 4;
+constexpr Real marginOfRadius = 0.05; // the sum over a pair is YADE's customary interactionDetectionFactor of 1.05
+/// Below this way per step of the fastest body, in radii of the smallest sphere, its speed is granted to every body: the few more
+/// candidates cost less than the grid.
+constexpr Real slowStep = 0.5;
+/// Edge of a grid cell in ways per step of the fastest body. A body gets the speed of its own and the 26 cells around, so a chain of
+/// strikes is followed over at least this many free flights; inelastic strikes slow it down at each link.
+constexpr Real flightsPerCell = 4;
 
-	struct Surroundings {
-		std::vector<Real> speed, radius, reach; // by body id
-		Real              smallestRadius = std::numeric_limits<Real>::infinity();
-		Real              largestSpeed   = 0; // of all bodies
-		Real              boundarySpeed  = 0; // of bodies that are no spheres: they may be anywhere along their extent
-	};
-	std::atomic<const Scene*> knownScene { nullptr };
-	std::atomic<long>         knownIter { -1 };
-	Surroundings              known; // written under `guard` before knownIter and knownScene are published
-	std::mutex                guard;
+struct Surroundings {
+	std::vector<Real> speed, radius, reach; // by body id
+	Real smallestRadius = std::numeric_limits<Real>::infinity();
+	Real largestSpeed = 0;	// of all bodies
+	Real boundarySpeed = 0; // of bodies that are no spheres: they may be anywhere along their extent
+};
+std::atomic<const Scene*> knownScene{nullptr};
+std::atomic<long> knownIter{-1};
+Surroundings known; // written under `guard` before knownIter and knownScene are published
+std::mutex guard;
 
-	/// Largest distance of a point of the surface from the body's position, for the part of its speed that comes from rotation.
-	Real turningRadius(const Shape& shape)
-	{
-		if (const auto* box = dynamic_cast<const Box*>(&shape)) return box->extents.norm();
-		if (const auto* facet = dynamic_cast<const Facet*>(&shape)) {
-			Real largest = 0;
-			for (const Vector3r& vertex : facet->vertices)
-				largest = std::max(largest, vertex.norm());
-			return largest;
-		}
-		return 0; // a turning sphere sweeps nothing
+/// Largest distance of a point of the surface from the body's position, for the part of its speed that comes from rotation.
+Real turningRadius(const Shape& shape)
+{
+	if (const auto* box = dynamic_cast<const Box*>(&shape)) return box->extents.norm();
+	if (const auto* facet = dynamic_cast<const Facet*>(&shape)) {
+		Real largest = 0;
+		for (const Vector3r& vertex : facet->vertices) largest = std::max(largest, vertex.norm());
+		return largest;
 	}
+	return 0; // a turning sphere sweeps nothing
+}
 
-	/// Speed the surface of the body may have in the coming step. A NaN counts as 0: the engine names the body that carries it.
-	Real surfaceSpeed(const Scene& scene, const Body& body, Real radius, Real gravity)
-	{
-		const State& state = *body.state;
-		Vector3r     vel   = state.vel;
-		Real         speed = 0;
-		if (scene.isPeriodic) {
-			vel -= scene.cell->velGrad * state.pos;
-			speed += scene.cell->velGrad.norm() * radius;
-		}
-		speed += vel.norm();
-		if (body.shape && state.angVel != Vector3r::Zero()) speed += state.angVel.norm() * turningRadius(*body.shape);
-		if (body.isDynamic() || body.isClumpMember()) {
-			speed += scene.dt * gravity;
-			ForceContainer& forces = const_cast<Scene&>(scene).forces; // YADE's getters are not const
-			if (forces.getPermForceUsed() && state.mass > 0) speed += scene.dt * forces.getPermForce(body.getId()).norm() / state.mass;
-		}
-		return std::isfinite(speed) ? speed : 0;
+/// Speed the surface of the body may have in the coming step. A NaN counts as 0: the engine names the body that carries it.
+Real surfaceSpeed(const Scene& scene, const Body& body, Real radius, Real gravity)
+{
+	const State& state = *body.state;
+	Vector3r vel = state.vel;
+	Real speed = 0;
+	if (scene.isPeriodic) {
+		vel -= scene.cell->velGrad * state.pos;
+		speed += scene.cell->velGrad.norm() * radius;
 	}
+	speed += vel.norm();
+	if (body.shape && state.angVel != Vector3r::Zero()) speed += state.angVel.norm() * turningRadius(*body.shape);
+	if (body.isDynamic() || body.isClumpMember()) {
+		speed += scene.dt * gravity;
+		ForceContainer& forces = const_cast<Scene&>(scene).forces; // YADE's getters are not const
+		if (forces.getPermForceUsed() && state.mass > 0) speed += scene.dt * forces.getPermForce(body.getId()).norm() / state.mass;
+	}
+	return std::isfinite(speed) ? speed : 0;
+}
 
-	Surroundings measureSpeeds(const Scene& scene)
+Surroundings measureSpeeds(const Scene& scene)
+{
+	Surroundings around;
+	Real gravity = 0;
+	for (const auto& engine : scene.engines)
+		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) gravity = newton->gravity.norm();
+	around.speed.assign(scene.bodies->size(), 0);
+	around.radius.assign(scene.bodies->size(), 0);
+	for (const auto& body : *scene.bodies) {
+		if (body->isClump()) continue;
+		const int id = body->getId();
+		const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get());
+		if (sphere && sphere->radius > 0) {
+			around.radius[id] = sphere->radius;
+			around.smallestRadius = std::min(around.smallestRadius, sphere->radius);
+		}
+		const Real speed = surfaceSpeed(scene, *body, around.radius[id], gravity);
+		around.speed[id] = speed;
+		around.largestSpeed = std::max(around.largestSpeed, speed);
+		if (!sphere) around.boundarySpeed = std::max(around.boundarySpeed, speed);
+	}
+	return around;
+}
+
+/// Largest speed of the spheres in a cube of space, by the cube's place in a grid of edge `edge`.
+class SpeedGrid {
+public:
+	SpeedGrid(const Scene& scene, const Surroundings& around, Real edge_) : edge(edge_)
 	{
-		Surroundings around;
-		Real         gravity = 0;
-		for (const auto& engine : scene.engines)
-			if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) gravity = newton->gravity.norm();
-		around.speed.assign(scene.bodies->size(), 0);
-		around.radius.assign(scene.bodies->size(), 0);
 		for (const auto& body : *scene.bodies) {
-			if (body->isClump()) continue;
-			const int   id     = body->getId();
-			const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get());
-			if (sphere && sphere->radius > 0) {
-				around.radius[id]     = sphere->radius;
-				around.smallestRadius = std::min(around.smallestRadius, sphere->radius);
-			}
-			const Real speed    = surfaceSpeed(scene, *body, around.radius[id], gravity);
-			around.speed[id]    = speed;
-			around.largestSpeed = std::max(around.largestSpeed, speed);
-			if (!sphere) around.boundarySpeed = std::max(around.boundarySpeed, speed);
+			if (around.radius[body->getId()] == 0 || !body->state->pos.allFinite()) continue;
+			Real& largest = cells[key(body->state->pos, {0, 0, 0})];
+			largest = std::max(largest, around.speed[body->getId()]);
 		}
-		return around;
+	}
+	Real largestNear(const Vector3r& pos) const
+	{
+		Real largest = 0;
+		for (int i = -1; i <= 1; i++)
+			for (int j = -1; j <= 1; j++)
+				for (int k = -1; k <= 1; k++) {
+					const auto cell = cells.find(key(pos, {i, j, k}));
+					if (cell != cells.end()) largest = std::max(largest, cell->second);
+				}
+		return largest;
 	}
 
-	/// Largest speed of the spheres in a cube of space, by the cube's place in a grid of edge `edge`.
-	class SpeedGrid {
-	public:
-		SpeedGrid(const Scene& scene, const Surroundings& around, Real edge_)
-		        : edge(edge_)
-		{
-			for (const auto& body : *scene.bodies) {
-				if (around.radius[body->getId()] == 0 || !body->state->pos.allFinite()) continue;
-				Real& largest = cells[key(body->state->pos, { 0, 0, 0 })];
-				largest       = std::max(largest, around.speed[body->getId()]);
-			}
-		}
-		Real largestNear(const Vector3r& pos) const
-		{
-			Real largest = 0;
-			for (int i = -1; i <= 1; i++)
-				for (int j = -1; j <= 1; j++)
-					for (int k = -1; k <= 1; k++) {
-						const auto cell = cells.find(key(pos, { i, j, k }));
-						if (cell != cells.end()) largest = std::max(largest, cell->second);
-					}
-			return largest;
-		}
-
-	private:
-		/// 21 bits an axis; places further out share keys, which only makes the answer larger than needed.
-		std::uint64_t key(const Vector3r& pos, const std::array<int, 3>& offset) const
-		{
-			std::uint64_t value = 0;
-			for (int axis = 0; axis < 3; axis++) {
-				const Real place = std::clamp(std::floor(pos[axis] / edge), Real(-1e15), Real(1e15));
-				value            = (value << 21) | (static_cast<std::uint64_t>(static_cast<std::int64_t>(place) + offset[axis]) & 0x1fffff);
-			}
-			return value;
-		}
-		Real                                    edge;
-		std::unordered_map<std::uint64_t, Real> cells;
-	};
-
-	void spreadReaches(const Scene& scene, Surroundings& around)
+private:
+	/// 21 bits an axis; places further out share keys, which only makes the answer larger than needed.
+	std::uint64_t key(const Vector3r& pos, const std::array<int, 3>& offset) const
 	{
-		const Real        h    = scene.dt;
-		std::vector<Real> near = std::vector<Real>(around.speed.size(), around.largestSpeed);
-		// Positions in a periodic cell are not wrapped, so nearness cannot be told from them: there everybody gets the largest speed.
-		if (h * around.largestSpeed > slowStep * around.smallestRadius && !scene.isPeriodic) {
-			const Real      largestRadius = *std::max_element(around.radius.begin(), around.radius.end());
-			const SpeedGrid grid(scene, around, flightsPerCell * (h * around.largestSpeed + 2 * largestRadius));
-			for (const auto& body : *scene.bodies) {
-				const int id = body->getId();
-				if (around.radius[id] > 0 && body->state->pos.allFinite()) near[id] = std::max(around.boundarySpeed, grid.largestNear(body->state->pos));
-			}
-			// A struck clump carries all its members along.
-			std::unordered_map<int, Real> clumps;
-			for (const auto& body : *scene.bodies)
-				if (body->isClumpMember()) clumps[body->clumpId] = std::max(clumps[body->clumpId], near[body->getId()]);
-			for (const auto& body : *scene.bodies)
-				if (body->isClumpMember()) near[body->getId()] = clumps[body->clumpId];
+		std::uint64_t value = 0;
+		for (int axis = 0; axis < 3; axis++) {
+			const Real place = std::clamp(std::floor(pos[axis] / edge), Real(-1e15), Real(1e15));
+			value = (value << 21) | (static_cast<std::uint64_t>(static_cast<std::int64_t>(place) + offset[axis]) & 0x1fffff);
 		}
-		around.reach.assign(around.speed.size(), 0);
+		return value;
+	}
+	Real edge;
+	std::unordered_map<std::uint64_t, Real> cells;
+};
+
+void spreadReaches(const Scene& scene, Surroundings& around)
+{
+	const Real h = scene.dt;
+	std::vector<Real> near = std::vector<Real>(around.speed.size(), around.largestSpeed);
+	// Positions in a periodic cell are not wrapped, so nearness cannot be told from them: there everybody gets the largest speed.
+	if (h * around.largestSpeed > slowStep * around.smallestRadius && !scene.isPeriodic) {
+		const Real largestRadius = *std::max_element(around.radius.begin(), around.radius.end());
+		const SpeedGrid grid(scene, around, flightsPerCell * (h * around.largestSpeed + 2 * largestRadius));
 		for (const auto& body : *scene.bodies) {
-			const int  id       = body->getId();
-			const bool driven   = !body->isDynamic() && !body->isClumpMember(); // nothing can be handed on to it
-			around.reach[id]    = h * (driven ? around.speed[id] : std::max(around.speed[id], near[id])) + marginOfRadius * around.radius[id];
+			const int id = body->getId();
+			if (around.radius[id] > 0 && body->state->pos.allFinite()) near[id] = std::max(around.boundarySpeed, grid.largestNear(body->state->pos));
 		}
+		// A struck clump carries all its members along.
+		std::unordered_map<int, Real> clumps;
+		for (const auto& body : *scene.bodies)
+			if (body->isClumpMember()) clumps[body->clumpId] = std::max(clumps[body->clumpId], near[body->getId()]);
+		for (const auto& body : *scene.bodies)
+			if (body->isClumpMember()) near[body->getId()] = clumps[body->clumpId];
 	}
-
-	const Surroundings& surroundings(const Scene& scene)
-	{
-		if (knownScene.load(std::memory_order_acquire) == &scene && knownIter.load(std::memory_order_acquire) == scene.iter) return known;
-		const std::lock_guard<std::mutex> lock(guard);
-		if (knownScene.load() == &scene && knownIter.load() == scene.iter) return known;
-		knownScene.store(nullptr);
-		known = measureSpeeds(scene);
-		spreadReaches(scene, known);
-		knownIter.store(scene.iter, std::memory_order_release);
-		knownScene.store(&scene, std::memory_order_release);
-		return known;
+	around.reach.assign(around.speed.size(), 0);
+	for (const auto& body : *scene.bodies) {
+		const int id = body->getId();
+		const bool driven = !body->isDynamic() && !body->isClumpMember(); // nothing can be handed on to it
+		around.reach[id] = h * (driven ? around.speed[id] : std::max(around.speed[id], near[id])) + marginOfRadius * around.radius[id];
 	}
 }
+
+const Surroundings& surroundings(const Scene& scene)
+{
+	if (knownScene.load(std::memory_order_acquire) == &scene && knownIter.load(std::memory_order_acquire) == scene.iter) return known;
+	const std::lock_guard<std::mutex> lock(guard);
+	if (knownScene.load() == &scene && knownIter.load() == scene.iter) return known;
+	knownScene.store(nullptr);
+	known = measureSpeeds(scene);
+	spreadReaches(scene, known);
+	knownIter.store(scene.iter, std::memory_order_release);
+	knownScene.store(&scene, std::memory_order_release);
+	return known;
+}
+} // namespace
 
 double Reach::ofBody(const Scene& scene, int id)
 {

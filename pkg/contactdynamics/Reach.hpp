@@ -16,13 +16,13 @@ class Scene;
 /// in a large dense packing. "Near" is a coarse grid whose cells are several steps of the fastest body wide, see Reach.cpp. A velocity
 /// gradient of the periodic cell counts by the velocity difference it makes over r.
 namespace Reach {
-	/// Reach of one body [m]; 0 when the time step is not positive (the engine refuses such a step).
-	double ofBody(const Scene& scene, int id);
-	/// Sum of the reaches of two bodies of `scene` [m].
-	double ofPair(const Scene& scene, int id1, int id2);
-	/// The reaches are worked out once a step; the engine calls this when its step is over (also after an error), because positions
-	/// and velocities may be changed by hand before the step is tried again.
-	void forget();
-}
+/// Reach of one body [m]; 0 when the time step is not positive (the engine refuses such a step).
+double ofBody(const Scene& scene, int id);
+/// Sum of the reaches of two bodies of `scene` [m].
+double ofPair(const Scene& scene, int id1, int id2);
+/// The reaches are worked out once a step; the engine calls this when its step is over (also after an error), because positions
+/// and velocities may be changed by hand before the step is tried again.
+void forget();
+} // namespace Reach
 
 } // namespace yade

@@ -6,12 +6,12 @@
 
 namespace yade {
 namespace {
-	/// Not registered with YADE: it exists only in the functor cache of refused interactions, which is never saved.
-	class RefusingLaw : public LawFunctor {
-	public:
-		bool go(shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*) override { return false; }
-	};
-}
+/// Not registered with YADE: it exists only in the functor cache of refused interactions, which is never saved.
+class RefusingLaw : public LawFunctor {
+public:
+	bool go(shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*) override { return false; }
+};
+} // namespace
 
 void refuseInteraction(const Scene* scene, Interaction& interaction, const std::string& message)
 {

@@ -38,7 +38,7 @@ public:
 
 	/// The problem as it was solved, from what restore() left.
 	contactdynamics::GrainProblem asSolved(const contactdynamics::GrainProblem& problem) const;
-	bool                          empty() const { return shifts.empty(); }
+	bool empty() const { return shifts.empty(); }
 
 	/// Whether a contact of this law can carry a force without being pressed together in this step.
 	static bool isBonded(const ContactDynamicsPhys& phys);

@@ -4,19 +4,19 @@
 
 namespace yade {
 namespace {
-	Vector3r nearestOnSegment(const Vector3r& p, const Vector3r& a, const Vector3r& b)
-	{
-		const Vector3r along   = b - a;
-		const Real     squared = along.squaredNorm();
-		if (!(squared > 0)) return a;
-		return a + std::clamp((p - a).dot(along) / squared, Real(0), Real(1)) * along;
-	}
+Vector3r nearestOnSegment(const Vector3r& p, const Vector3r& a, const Vector3r& b)
+{
+	const Vector3r along = b - a;
+	const Real squared = along.squaredNorm();
+	if (!(squared > 0)) return a;
+	return a + std::clamp((p - a).dot(along) / squared, Real(0), Real(1)) * along;
 }
+} // namespace
 
 Vector3r nearestOnTriangle(const Vector3r& p, const Vector3r& a, const Vector3r& b, const Vector3r& c)
 {
 	const Vector3r areaNormal = (b - a).cross(c - a);
-	const Real     squared    = areaNormal.squaredNorm();
+	const Real squared = areaNormal.squaredNorm();
 	if (squared > 0) {
 		// barycentric coordinates of the foot of the perpendicular; all of them non-negative: the face is nearest
 		const Real alongC = (b - a).cross(p - a).dot(areaNormal) / squared;
@@ -24,9 +24,9 @@ Vector3r nearestOnTriangle(const Vector3r& p, const Vector3r& a, const Vector3r&
 		if (alongB >= 0 && alongC >= 0 && alongB + alongC <= 1) return a + alongB * (b - a) + alongC * (c - a);
 	}
 	// otherwise one of the edges; the shorter code of three segments was preferred to a walk through the Voronoi regions
-	const Vector3r candidates[3] = { nearestOnSegment(p, a, b), nearestOnSegment(p, b, c), nearestOnSegment(p, c, a) };
-	return *std::min_element(
-	        candidates, candidates + 3, [&p](const Vector3r& one, const Vector3r& other) { return (p - one).squaredNorm() < (p - other).squaredNorm(); });
+	const Vector3r candidates[3] = {nearestOnSegment(p, a, b), nearestOnSegment(p, b, c), nearestOnSegment(p, c, a)};
+	return *std::min_element(candidates, candidates + 3,
+							 [&p](const Vector3r& one, const Vector3r& other) { return (p - one).squaredNorm() < (p - other).squaredNorm(); });
 }
 
 } // namespace yade

@@ -5,7 +5,7 @@ namespace contactdynamics {
 
 /// What is done between two sweeps of the Signorini-Coulomb loop.
 enum class Acceleration {
-	none,	  ///< plain nonlinear block Gauss-Seidel, section 5.4 of Jean (1999)
+	none,	 ///< plain nonlinear block Gauss-Seidel, section 5.4 of Jean (1999)
 	momentum ///< momentum on the sweep with restart and safeguard, see Accelerator.hpp
 };
 
