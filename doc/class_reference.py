@@ -35,6 +35,7 @@ def toSphinx(docstring):
         found = re.search(rf":{role}:`(.*?)`", docstring, re.DOTALL)
         facts[role] = found.group(1).strip() if found else ""
         docstring = re.sub(rf":{role}:`.*?`", "", docstring, flags=re.DOTALL)
+    docstring = docstring.replace("|", r"\|")  # the norm of a vector, not a substitution of Sphinx
     return re.sub(r":yref:`(.*?)`", link, inspect.cleandoc(docstring), flags=re.DOTALL).strip(), facts
 
 
