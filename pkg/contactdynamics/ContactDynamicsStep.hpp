@@ -38,7 +38,7 @@ struct ContactDynamicsStep {
 	void collectContacts(const Scene& scene, const std::string& contactLaw, Real warmStart);
 	/// After collectContacts(): recognises a two-dimensional scene, whose disks are solved as balls.
 	void usePlane();
-	contactdynamics::SolveReport solve(Real tolerance, int maxIterations);
+	contactdynamics::SolveReport solve(Real tolerance, int maxIterations, bool accelerated);
 	void apply(Scene& scene);
 	/// After apply(): displaces bodies that overlap, see PenetrationRepair; a rate of 0 only measures.
 	void repairPenetration(Scene& scene, Real rate, Real allowed);
