@@ -3,6 +3,7 @@
 
 #include "BallPack.hpp"
 #include "BlockProblem.hpp"
+#include "CrushedContacts.hpp"
 #include "NaturalMap.hpp"
 #include "OneContact.hpp"
 #include "OneContact2D.hpp"
@@ -98,20 +99,13 @@ public:
 		}
 	}
 
-	/// Whether the impulses have grown without stopping the approach: they are a thousand times those that would stop each contact alone, and more
-	/// than half of the approach is left (both in the norm of 1 / W_NN). Where contacts press one body from opposite sides there is no solution, but
-	/// any residual relative to the impulses falls below any tolerance when these go to infinity.
-	bool runsAway() const
+	/// Contacts that impulses, however large, do not stop.
+	CrushedContacts crushed(double tolerance) const
 	{
-		double approach = 0, free = 0, stored = 0;
-		for (std::size_t i = 0; i < impulse.size(); ++i) {
-			const double Wnn = diagonal[i](0, 0), u = std::min(0.0, velocityAt(i)[0]), q = std::min(0.0, problem.q[D * i]);
-			if (!(Wnn > 0)) continue;
-			approach += u * u / Wnn;
-			free += q * q / Wnn;
-			stored += Wnn * impulse[i][0] * impulse[i][0];
-		}
-		return free > 0 && approach > 0.25 * free && stored > 1e6 * free;
+		CrushedContacts contacts(tolerance);
+		for (std::size_t i = 0; i < impulse.size(); ++i)
+			if (problem.q[D * i] < 0) contacts.add(problem.q[D * i], velocityAt(i)[0], impulse[i][0], diagonal[i](0, 0));
+		return contacts;
 	}
 
 	const std::vector<Vector>& impulses() const { return impulse; }

@@ -49,7 +49,7 @@ public:
 		report.status = SolveStatus::notFinite;
 		if (!std::isfinite(best.residual)) return report;
 		blocks.setRaw(best.impulses);
-		report.status = !solved() ? SolveStatus::maxIterations : blocks.runsAway() ? SolveStatus::unbounded : SolveStatus::converged;
+		report.status = !solved() ? SolveStatus::maxIterations : runsAway() ? SolveStatus::unbounded : SolveStatus::converged;
 		blocks.finish(report);
 		return report;
 	}
@@ -63,6 +63,17 @@ private:
 	SolveReport report;
 
 	bool solved() const { return best.residual <= options.tolerance; }
+
+	/// Whether the tolerance is met only because the impulses grow without bound. The point stays the best one.
+	bool runsAway()
+	{
+		const CrushedContacts here = blocks.crushed(options.tolerance);
+		if (!here.any()) return false;
+		for (int i = CrushedContacts::furtherSweeps(report.iterations); i > 0; --i) blocks.sweep({});
+		const bool stay = here.stay(blocks.crushed(options.tolerance));
+		blocks.setRaw(best.impulses);
+		return stay;
+	}
 
 	bool sweep(int count)
 	{

@@ -19,10 +19,10 @@ template <int D> int NewtonFinish<D>::improve(CertifiedPoint<D>& best, double to
 	return done;
 }
 
-template <int D> void NewtonFinish<D>::certify(CertifiedPoint<D>& best)
+template <int D> void NewtonFinish<D>::certify(CertifiedPoint<D>& best, double tolerance)
 {
 	const double residual = blocks.certificate();
-	if (residual < best.residual && !blocks.runsAway()) best.keepIfBetter(residual, blocks.impulses());
+	if (residual < best.residual && !blocks.crushed(tolerance).any()) best.keepIfBetter(residual, blocks.impulses());
 }
 
 template <int D> int NewtonFinish<D>::swept(CertifiedPoint<D>& best, double tolerance, int steps)
@@ -33,13 +33,13 @@ template <int D> int NewtonFinish<D>::swept(CertifiedPoint<D>& best, double tole
 		blocks.velocities(velocity);
 		if (!step.compute(blocks.impulses(), velocity, damping, next)) return done;
 		blocks.setImpulses(next);
-		certify(best);
+		certify(best, tolerance);
 		if (best.residual <= tolerance) return done;
 		blocks.sweep({});
 		blocks.sweep({});
 		const double residual = blocks.certificate();
 		if (!std::isfinite(residual)) return done;
-		certify(best);
+		certify(best, tolerance);
 		if (best.residual <= tolerance) return done;
 		damping = std::max(leastDamping, 0.3 * std::min(damping, residual));
 	}
@@ -74,7 +74,7 @@ template <int D> int NewtonFinish<D>::searched(CertifiedPoint<D>& best, double t
 			point = trial;
 			velocity.swap(trialVelocity);
 			blocks.setImpulses(point);
-			certify(best);
+			certify(best, tolerance);
 			if (best.residual <= tolerance) return done;
 		}
 		if (!accepted)

@@ -28,7 +28,8 @@ template <int D> struct CertifiedPoint {
 ///     and
 ///               surer; without sweeps, because they take it back to where they stall.
 ///
-/// Only points with a lower certificate than the best so far are kept, and only where the impulses do not run away.
+/// Only points with a lower certificate than the best so far are kept, and only where no contact is crushed (CrushedContacts.hpp): damped steps go to
+/// infinity at once where there is no solution.
 template <int D> class NewtonFinish {
 public:
 	using Vector = Eigen::Matrix<double, D, 1>;
@@ -49,7 +50,7 @@ private:
 
 	int swept(CertifiedPoint<D>& best, double tolerance, int steps);
 	int searched(CertifiedPoint<D>& best, double tolerance, int steps);
-	void certify(CertifiedPoint<D>& best);
+	void certify(CertifiedPoint<D>& best, double tolerance);
 };
 
 } // namespace contactdynamics
