@@ -10,13 +10,6 @@ namespace contactdynamics {
 template <int D> struct CertifiedPoint {
 	double residual = 0;
 	std::vector<Eigen::Matrix<double, D, 1>> impulses;
-
-	void keepIfBetter(double otherResidual, const std::vector<Eigen::Matrix<double, D, 1>>& other)
-	{
-		if (!(otherResidual < residual) && std::isfinite(residual)) return;
-		residual = otherResidual;
-		impulses = other;
-	}
 };
 
 /// Newton steps from a point of the sweeps, in two ways one after the other:
@@ -46,7 +39,7 @@ private:
 	BlockOperator<D>& blocks;
 	NewtonStep<D> step;
 	double cost;
-	std::vector<Vector> velocity, trialVelocity, next;
+	std::vector<Vector> point, velocity, trial, trialVelocity, next;
 
 	int swept(CertifiedPoint<D>& best, double tolerance, int steps);
 	int searched(CertifiedPoint<D>& best, double tolerance, int steps);

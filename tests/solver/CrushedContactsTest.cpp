@@ -99,7 +99,7 @@ TEST(CrushedContacts, NoFalseAlarm)
 TEST(CrushedContacts, CountsOnlyWhatIsCrushed)
 {
 	const auto any = [](double qN, double uN, double rN) {
-		CrushedContacts contacts(1e-4);
+		CrushedContacts contacts(1e-4, 10);
 		contacts.add(qN, uN, rN, 2);
 		return contacts.any();
 	};
@@ -108,11 +108,12 @@ TEST(CrushedContacts, CountsOnlyWhatIsCrushed)
 	EXPECT_FALSE(any(-1, -0.09, 501)); // a tenth of the approach is left
 	EXPECT_FALSE(any(0, -0.5, 501));
 	EXPECT_FALSE(any(1, -0.5, 501));
-	CrushedContacts before(1e-4), same(1e-4), less(1e-4);
+	EXPECT_FALSE(any(-0.09, -0.05, 501)); // below a hundredth of the largest approach
+	CrushedContacts before(1e-4, 1), same(1e-4, 1), less(1e-4, 1);
 	before.add(-1, -0.5, 501, 2);
 	same.add(-1, -0.49, 1000, 2);
 	less.add(-1, -0.3, 1000, 2);
 	EXPECT_TRUE(before.stay(same));
 	EXPECT_FALSE(before.stay(less));
-	EXPECT_FALSE(CrushedContacts(1e-4).stay(same));
+	EXPECT_FALSE(CrushedContacts(1e-4, 1).stay(same));
 }
