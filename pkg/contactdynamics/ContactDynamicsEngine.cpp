@@ -106,9 +106,15 @@ void ContactDynamicsEngine::solve()
 								 " has values that are not finite (external force, inertia or contact geometry); no body was moved.");
 	if (converged || onNonConvergence == "ignore") return;
 	std::ostringstream message;
-	message << "ContactDynamicsEngine: step " << scene->iter << ": residual " << residual << " after " << iterations
-			<< " sweeps is above the tolerance " << tolerance << " (" << step->problem.contacts.size() << " contacts, largest approach speed left "
-			<< maxApproachSpeed << " m/s). Raise maxIterations or tolerance, or lower O.dt.";
+	if (report.status == contactdynamics::SolveStatus::unbounded)
+		message << "ContactDynamicsEngine: step " << scene->iter
+				<< ": the contact problem has no solution: bodies are pressed from opposite sides by bodies "
+				<< "whose motion is given, and impulses without bound do not stop them (largest approach speed left " << maxApproachSpeed
+				<< " m/s). Stop the walls, or let a force drive them.";
+	else
+		message << "ContactDynamicsEngine: step " << scene->iter << ": residual " << residual << " after " << iterations
+				<< " sweeps is above the tolerance " << tolerance << " (" << step->problem.contacts.size()
+				<< " contacts, largest approach speed left " << maxApproachSpeed << " m/s). Raise maxIterations or tolerance, or lower O.dt.";
 	if (onNonConvergence == "raise") throw std::runtime_error(message.str());
 	if (!warned) std::cerr << "WARNING: " << message.str() << " Said once; see ContactDynamicsEngine.converged." << std::endl;
 	warned = true;
@@ -133,5 +139,6 @@ boost::python::list ContactDynamicsEngine::freeVelocities() const { return step-
 boost::python::list ContactDynamicsEngine::predictedVelocities() const { return step->velocitiesById(step->end()); }
 boost::python::list ContactDynamicsEngine::predictedAngularMomenta() const { return step->angularMomentaById(); }
 boost::python::dict ContactDynamicsEngine::lastProblem() const { return step->asDictionary(); }
+boost::python::dict ContactDynamicsEngine::convergenceNorms() const { return step->normsAsDictionary(); }
 
 } // namespace yade

@@ -13,7 +13,8 @@
 
 namespace contactdynamics {
 
-/// Spheres of radius 0.8 to 1.2 (of the mean, 1 mm) on a loose lattice over the floor of a box with a square base, thrown at random. Same seed, same grains.
+/// Spheres of radius 0.8 to 1.2 (of the mean, 1 mm) on a loose lattice over the floor of a box with a square base, thrown at random. Same seed, same
+/// grains.
 class GrainBox {
 public:
 	struct Setup {
@@ -129,7 +130,9 @@ private:
 			widest = std::max(widest, reach[i]);
 		}
 		const double cell = 2 * widest;
-		const auto hash = [](int x, int y, int z) { return (std::uint64_t(x + 1000) << 42) | (std::uint64_t(y + 1000) << 21) | std::uint64_t(z + 1000); };
+		const auto hash = [](int x, int y, int z) {
+			return (std::uint64_t(x + 1000) << 42) | (std::uint64_t(y + 1000) << 21) | std::uint64_t(z + 1000);
+		};
 		const auto at = [&](double x) { return int(std::floor(x / cell)); };
 		std::unordered_map<std::uint64_t, std::vector<int>> cells;
 		for (std::size_t i = 1; i < grains.size(); ++i) {
