@@ -292,11 +292,12 @@ void ContactDynamicsStep::leaveOut(Link& link)
 	link.phys->localVelocity = Vector3r::Zero();
 }
 
-contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxIterations)
+contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxIterations, bool accelerated)
 {
 	contactdynamics::SolverOptions options;
 	options.tolerance = tolerance;
 	options.maxIterations = maxIterations;
+	if (!accelerated) options.acceleration = contactdynamics::Acceleration::none;
 	options.threads = omp_get_max_threads();
 	const auto report = rolling.empty() ? solver.solve(problem, options) : rolling.solve(solver, problem, options);
 	solved = report.status != contactdynamics::SolveStatus::notFinite;

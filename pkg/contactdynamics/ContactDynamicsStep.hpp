@@ -6,6 +6,7 @@
 #include "ShiftedContacts.hpp"
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
+#include <pkg/solver/BlockProblem.hpp>
 #include <pkg/solver/SignoriniCoulombSolver.hpp>
 #include <string>
 #include <vector>
@@ -38,7 +39,7 @@ struct ContactDynamicsStep {
 	void collectContacts(const Scene& scene, const std::string& contactLaw, Real warmStart);
 	/// After collectContacts(): recognises a two-dimensional scene, whose disks are solved as balls.
 	void usePlane();
-	contactdynamics::SolveReport solve(Real tolerance, int maxIterations);
+	contactdynamics::SolveReport solve(Real tolerance, int maxIterations, bool accelerated);
 	void apply(Scene& scene);
 	/// After apply(): displaces bodies that overlap, see PenetrationRepair; a rate of 0 only measures.
 	void repairPenetration(Scene& scene, Real rate, Real allowed);
@@ -46,7 +47,8 @@ struct ContactDynamicsStep {
 	std::vector<Twist> end() const; // velocities at the end of the step by solver index
 	boost::python::list velocitiesById(const std::vector<Twist>& twists) const;
 	boost::python::list angularMomentaById() const;
-	boost::python::dict asDictionary() const; // see ContactDynamicsEngine.lastProblem
+	boost::python::dict asDictionary() const;	   // see ContactDynamicsEngine.lastProblem
+	boost::python::dict normsAsDictionary() const; // see ContactDynamicsEngine.convergenceNorms
 
 private:
 	/// What the contacts need of a body, looked up once a step instead of once a contact.
@@ -73,6 +75,7 @@ private:
 		Vector3r force, torque;
 	};
 
+	contactdynamics::BlockProblem assembledProblem(const char* caller) const;
 	void gatherInteractions(const Scene& scene);
 	void dropDoubledFacetContacts(const Scene& scene);
 	void describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const;

@@ -13,11 +13,13 @@ OneContact::OneContact(const Matrix3& W) : Wnn(W(0, 0))
 	wx = W(0, 1);
 	wy = W(0, 2);
 	const double a = W(1, 1) - wx * wx / Wnn, d = W(2, 2) - wy * wy / Wnn, off = W(1, 2) - wx * wy / Wnn;
-	// One Jacobi rotation diagonalises a symmetric 2x2 matrix without cancellation in the angle.
-	const double angle = 0.5 * std::atan2(2 * off, a - d);
-	cosine = std::cos(angle);
-	sine = std::sin(angle);
-	const double mean = 0.5 * (a + d), radius = std::hypot(0.5 * (a - d), off);
+	// One Jacobi rotation diagonalises a symmetric 2x2 matrix; the larger of sine and cosine first, without cancellation.
+	const double mean = 0.5 * (a + d), radius = std::sqrt(0.25 * (a - d) * (a - d) + off * off);
+	if (radius > 0) {
+		const double larger = std::sqrt(0.5 + 0.25 * std::abs(a - d) / radius), smaller = 0.5 * std::abs(off) / (radius * larger);
+		cosine = a >= d ? larger : smaller;
+		sine = std::copysign(a >= d ? smaller : larger, off);
+	}
 	largeEigen = std::max(0.0, mean + radius);
 	smallEigen = std::max(0.0, mean - radius);
 	// The Schur complement carries the round-off of its terms: below it an eigenvalue means "cannot move".
@@ -27,8 +29,9 @@ OneContact::OneContact(const Matrix3& W) : Wnn(W(0, 0))
 }
 
 /// Root k > 0 of f(k) = |r_t(k)| - mu r_n(k), f(0) > 0 > f(infinity). Newton on 1/(mu r_n) - 1/|r_t|, which is nearly linear in k (as in
-/// trust-region methods), kept inside a bracket; bisection of the logarithm when it leaves the bracket or shrinks it too slowly.
-double OneContact::slidingRate(double cLarge, double cSmall, double wLarge, double wSmall, double bn, double mu) const
+/// trust-region methods), first from the guess, if any, without a bracket, then kept inside one; bisection of the logarithm when it leaves the
+/// bracket or shrinks it too slowly.
+double OneContact::slidingRate(double cLarge, double cSmall, double wLarge, double wSmall, double bn, double mu, double guess) const
 {
 	const auto evaluate = [&](double k, double& tangential, double& normal, double& dTangential, double& dNormal) {
 		const double iL = 1 / (largeEigen + k), iS = 1 / (smallEigen + k);
@@ -39,11 +42,23 @@ double OneContact::slidingRate(double cLarge, double cSmall, double wLarge, doub
 		dNormal = mu * (wLarge * rL * iL + wSmall * rS * iS) / Wnn;
 		return tangential - normal;
 	};
+	/// Step of Newton's method, subtracted.
+	const auto newton = [](double tangential, double normal, double dT, double dN) {
+		return (1 / normal - 1 / tangential) / (dT / (tangential * tangential) - dN / (normal * normal));
+	};
 	double tangential, normal, dT, dN;
 	const double limit = -mu * bn / Wnn; // mu r_n for k -> infinity, > 0
 	// A direction that cannot move and yet should: below the round-off of A the rate means nothing, see solve().
-	double low = smallEigen > 0 ? 0 : roundOff, high = std::max(2 * low, std::hypot(cLarge, cSmall) / limit);
+	double low = smallEigen > 0 ? 0 : roundOff, high = std::max(2 * low, std::sqrt(cLarge * cLarge + cSmall * cSmall) / limit);
 	if (low > 0 && evaluate(low, tangential, normal, dT, dN) <= 0) return -1;
+	for (int i = 0; i < 4 && guess > low; ++i) {
+		evaluate(guess, tangential, normal, dT, dN);
+		const double next = guess - newton(tangential, normal, dT, dN);
+		if (!(normal > 0 && tangential > 0 && next > low)) break;
+		// The error after a step is of the order of its square.
+		if (std::abs(next - guess) <= 1e-8 * guess) return next;
+		guess = next;
+	}
 	while (evaluate(high, tangential, normal, dT, dN) > 0) {
 		low = high;
 		high *= 4;
@@ -56,8 +71,7 @@ double OneContact::slidingRate(double cLarge, double cSmall, double wLarge, doub
 		if (f == 0 || high - low <= 2 * std::numeric_limits<double>::epsilon() * high) break;
 		double next = -1;
 		if (normal > 0 && tangential > 0) {
-			const double g = 1 / normal - 1 / tangential, slope = -dN / (normal * normal) + dT / (tangential * tangential);
-			if (slope != 0) next = k - g / slope;
+			next = k - newton(tangential, normal, dT, dN);
 			if (next > low && next < high && std::abs(next - k) <= std::numeric_limits<double>::epsilon() * k) return next;
 		}
 		if (!(next > low && next < high) || (i > 8 && i % 3 == 0)) next = low > 0 && low < 0.1 * high ? std::sqrt(low * high) : 0.5 * (low + high);
@@ -68,6 +82,12 @@ double OneContact::slidingRate(double cLarge, double cSmall, double wLarge, doub
 }
 
 Vector3 OneContact::solve(const Vector3& b, double mu) const
+{
+	double unknown = 0;
+	return solve(b, mu, unknown);
+}
+
+Vector3 OneContact::solve(const Vector3& b, double mu, double& rate) const
 {
 	const double bn = b[0];
 	if (!(bn < 0) || !(Wnn > 0)) return Vector3::Zero();
@@ -82,22 +102,24 @@ Vector3 OneContact::solve(const Vector3& b, double mu) const
 		rLarge = largeEigen > 0 ? cLarge / largeEigen : 0;
 		rSmall = smallEigen > 0 ? cSmall / smallEigen : 0;
 		const double rn = -(bn + wLarge * rLarge + wSmall * rSmall) / Wnn;
-		if (std::hypot(rLarge, rSmall) <= mu * rn) return {rn, cosine * rLarge - sine * rSmall, sine * rLarge + cosine * rSmall};
+		if (rn >= 0 && rLarge * rLarge + rSmall * rSmall <= mu * mu * rn * rn)
+			return {rn, cosine * rLarge - sine * rSmall, sine * rLarge + cosine * rSmall};
 	}
-	const double k = slidingRate(cLarge, cSmall, wLarge, wSmall, bn, mu);
+	const double k = slidingRate(cLarge, cSmall, wLarge, wSmall, bn, mu, rate);
 	if (k < 0) {
 		// Jammed: an impulse along the immobile direction lies inside the cone, so that the contact would stick, but no impulse changes the velocity
 		// along it. By round-off, where the bodies are blocked: sticking is right. By a wall that is driven against it: there is no solution, and
 		// the residual will say so. The rest of the motion is stopped in either case.
 		rLarge = largeEigen > 0 ? cLarge / largeEigen : 0;
 		rSmall = smallEigen > 0 ? cSmall / smallEigen : 0;
-		const double rn = std::max(0.0, -(bn + wLarge * rLarge + wSmall * rSmall) / Wnn), rt = std::hypot(rLarge, rSmall);
+		const double rn = std::max(0.0, -(bn + wLarge * rLarge + wSmall * rSmall) / Wnn), rt = std::sqrt(rLarge * rLarge + rSmall * rSmall);
 		const double scale = rt > mu * rn ? mu * rn / rt : 1;
 		return {rn, scale * (cosine * rLarge - sine * rSmall), scale * (sine * rLarge + cosine * rSmall)};
 	}
+	rate = k;
 	rLarge = cLarge / (largeEigen + k);
 	rSmall = cSmall / (smallEigen + k);
-	const double rn = std::hypot(rLarge, rSmall) / mu;
+	const double rn = std::sqrt(rLarge * rLarge + rSmall * rSmall) / mu;
 	return {rn, cosine * rLarge - sine * rSmall, sine * rLarge + cosine * rSmall};
 }
 

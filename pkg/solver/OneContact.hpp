@@ -26,6 +26,10 @@ public:
 	/// @return    impulse [N s]; zero when b_n >= 0, and when W_nn = 0 (nothing can move along the normal)
 	Vector3 solve(const Vector3& b, double mu) const;
 
+	/// The same, for visits that follow each other.
+	/// @param rate  in: sliding rate k of the last visit, where the search begins, 0: unknown; out: that of this visit, left alone unless it slides
+	Vector3 solve(const Vector3& b, double mu, double& rate) const;
+
 	double normalMobility() const { return Wnn; } ///< W_nn [1/kg]
 
 private:
@@ -36,7 +40,7 @@ private:
 
 	double roundOff = 0; // of A [1/kg]
 
-	double slidingRate(double cLarge, double cSmall, double wLarge, double wSmall, double bn, double mu) const;
+	double slidingRate(double cLarge, double cSmall, double wLarge, double wSmall, double bn, double mu, double guess) const;
 };
 
 } // namespace contactdynamics
