@@ -13,9 +13,9 @@
 namespace yade {
 
 class ContactDynamicsPhys;
-class Facet;
 class Interaction;
 class Scene;
+struct SurfaceContact;
 
 /// One step of ContactDynamicsEngine in flat arrays: the scene is gathered once, solved, and scattered once.
 /// Bodies and contacts are ordered by id, so the problem does not depend on threads or on the order in which YADE met the pairs.
@@ -52,7 +52,6 @@ private:
 	/// What the contacts need of a body, looked up once a step instead of once a contact.
 	struct BodyView {
 		const State* state = nullptr; // null: erased
-		const Facet* facet = nullptr; // null: no facet
 		Real radius = 0;			  // 0: no sphere [m]
 		int index = -1;				  // into problem.bodies; that of the clump for a member
 		bool member = false;		  // of a clump
@@ -74,7 +73,8 @@ private:
 	};
 
 	void gatherInteractions(const Scene& scene);
-	void dropDoubledFacetContacts(const Scene& scene);
+	void settleSurfaceSeams(const Scene& scene);
+	static void passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts);
 	void describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const;
 	void requireUsable(const Link& link, const contactdynamics::Contact& contact) const;
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;
