@@ -82,6 +82,7 @@ private:
 	Vector3r relativeVelocity(const contactdynamics::Contact& contact, const Twist& of1, const Twist& of2) const;
 	void shiftContacts(Real warmStart);
 	void trackEnergy(Scene& scene);
+	Real powerOnPrescribed(int index, const Vector3r& force, const Vector3r& torque) const;
 	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
 	static void leaveOut(Link& link);
 	Real radiusOf(const Link& link) const;
