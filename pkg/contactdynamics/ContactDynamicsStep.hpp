@@ -14,9 +14,9 @@
 namespace yade {
 
 class ContactDynamicsPhys;
-class Facet;
 class Interaction;
 class Scene;
+struct SurfaceContact;
 
 /// One step of ContactDynamicsEngine in flat arrays: the scene is gathered once, solved, and scattered once.
 /// Bodies and contacts are ordered by id, so the problem does not depend on threads or on the order in which YADE met the pairs.
@@ -54,7 +54,6 @@ private:
 	/// What the contacts need of a body, looked up once a step instead of once a contact.
 	struct BodyView {
 		const State* state = nullptr; // null: erased
-		const Facet* facet = nullptr; // null: no facet
 		Real radius = 0;			  // 0: no sphere [m]
 		int index = -1;				  // into problem.bodies; that of the clump for a member
 		bool member = false;		  // of a clump
@@ -77,7 +76,8 @@ private:
 
 	contactdynamics::BlockProblem assembledProblem(const char* caller) const;
 	void gatherInteractions(const Scene& scene);
-	void dropDoubledFacetContacts(const Scene& scene);
+	void settleSurfaceSeams(const Scene& scene);
+	static void passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts);
 	void describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const;
 	void requireUsable(const Link& link, const contactdynamics::Contact& contact) const;
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;
@@ -85,6 +85,7 @@ private:
 	Vector3r relativeVelocity(const contactdynamics::Contact& contact, const Twist& of1, const Twist& of2) const;
 	void shiftContacts(Real warmStart);
 	void trackEnergy(Scene& scene);
+	Real powerOnPrescribed(int index, const Vector3r& force, const Vector3r& torque) const;
 	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
 	static void leaveOut(Link& link);
 	Real radiusOf(const Link& link) const;
