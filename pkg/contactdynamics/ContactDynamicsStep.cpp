@@ -59,6 +59,7 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 {
 	solved = false;
 	h = plan.h;
+	gravity = plan.gravity;
 	velGrad = plan.velGrad;
 	displacementAsVelocity = plan.velocityOfDisplacement();
 	const long count = static_cast<long>(scene.bodies->size());
@@ -264,6 +265,7 @@ void ContactDynamicsStep::leaveOut(Link& link)
 	link.phys->normalForce = Vector3r::Zero();
 	link.phys->shearForce = Vector3r::Zero();
 	link.phys->localVelocity = Vector3r::Zero();
+	link.phys->pseudoImpulse = 0;
 }
 
 contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxIterations, bool accelerated)
