@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsStep.hpp"
+#include "BodyCheck.hpp"
 #include "ContactDynamicsPhys.hpp"
 #include "LocalFrame.hpp"
 #include "ParallelLoop.hpp"
@@ -104,7 +105,10 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 				throw std::runtime_error("body #" + std::to_string(id) + " is a member of clump #" + std::to_string(body->clumpId) +
 										 ", which does not exist (any more).");
 		}
-		if (const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get())) view.radius = sphere->radius;
+		if (const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get())) {
+			requirePositiveRadius(*body, sphere->radius); // the collider passes over a sphere without a size, which then falls through all others
+			view.radius = sphere->radius;
+		}
 		view.fixed = immobile(motions[view.index]);
 		view.ball = view.fixed || (view.radius > 0 && !view.member && isotropic(motions[view.index]));
 	});

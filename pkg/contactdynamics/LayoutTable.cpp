@@ -5,6 +5,7 @@
 #include <core/Clump.hpp>
 #include <core/Dispatching.hpp>
 #include <core/GlobalEngine.hpp>
+#include <core/InteractionLoop.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/ElastMat.hpp>
@@ -67,6 +68,7 @@ py::dict compiledLayout()
 
 	Rows(table, "Engine") ROW(Engine, dead) ROW(Engine, ompThreads) ROW(Engine, label) ROW(Engine, timingDeltas);
 	Rows(table, "GlobalEngine").size<GlobalEngine>();
+	Rows(table, "InteractionLoop") ROW(InteractionLoop, lawDispatcher);
 	Rows(table, "NewtonIntegrator") ROW(NewtonIntegrator, damping) ROW(NewtonIntegrator, gravity) ROW(NewtonIntegrator, exactAsphericalRot)
 			ROW(NewtonIntegrator, prevVelGrad) ROW(NewtonIntegrator, mask);
 

@@ -5,8 +5,8 @@
 #include <core/Clump.hpp>
 #include <core/Dispatching.hpp>
 #include <core/TimeStepper.hpp>
+#include <pkg/common/Collider.hpp>
 #include <pkg/common/ElastMat.hpp>
-#include <pkg/common/InsertionSortCollider.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
