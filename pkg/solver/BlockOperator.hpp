@@ -59,15 +59,19 @@ public:
 			for (Visited& contact : visited) contact.direction = contact.increment;
 		atZero = false;
 		SweepNorms norms;
+		Vector r; // of the last contact visited, stored by the next product
 		for (std::size_t i = 0; i < lanes.size(); ++i) {
 			Visited& contact = visited[i];
-			const Vector x = impulse(i), r = contact.visit(x, velocityAt(i), problem.friction[i]);
+			Vector u;
+			product(rows, lanes.data(), i, i + 1, u.data(), i > 0 ? r.data() : nullptr);
+			const Vector x = impulse(i);
+			r = contact.visit(x, u, problem.friction[i]);
 			contact.increment = r - x;
 			if (r[0] == 0 && contact.increment[0] == 0) continue; // stays open
-			put(i, r);
 			norms.increment2 += contact.increment.dot(contact.W * contact.increment);
 			norms.impulse2 += r.dot(contact.W * r);
 		}
+		if (!lanes.empty()) put(lanes.size() - 1, r);
 		return norms;
 	}
 
@@ -151,7 +155,7 @@ public:
 	}
 
 	/// u = W r + q [m/s] at the present impulses.
-	void velocities(std::vector<Vector>& u) const
+	void velocities(std::vector<Vector>& u)
 	{
 		u.resize(lanes.size());
 		for (std::size_t i = 0; i < lanes.size(); ++i) u[i] = velocityAt(i);
@@ -233,11 +237,11 @@ private:
 			lanes[i] = {{r[0], r[1], r[2], 0}};
 	}
 
-	Vector velocityAt(std::size_t i) const
+	Vector velocityAt(std::size_t i)
 	{
 		if (atZero) return at(problem.q, i);
 		Vector u;
-		product(rows, lanes.data(), i, i + 1, u.data());
+		product(rows, lanes.data(), i, i + 1, u.data(), nullptr);
 		return u;
 	}
 };
