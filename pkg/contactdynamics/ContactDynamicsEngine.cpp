@@ -70,6 +70,8 @@ void ContactDynamicsEngine::action()
 	timingDeltas->checkpoint("solve");
 	apply();
 	timingDeltas->checkpoint("apply");
+	repair();
+	timingDeltas->checkpoint("repair");
 }
 
 void ContactDynamicsEngine::collect()
@@ -120,6 +122,10 @@ void ContactDynamicsEngine::apply()
 	activeContacts = step->activeContacts;
 	maxPenetration = step->maxPenetration;
 	meanPenetration = step->meanPenetration;
+}
+
+void ContactDynamicsEngine::repair()
+{
 	step->repairPenetration(*scene, repairRate, allowedOverlap);
 	remainingOverlap = step->remainingOverlap;
 	repairDisplacement = step->repairDisplacement;
