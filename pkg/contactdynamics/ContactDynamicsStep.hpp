@@ -6,6 +6,7 @@
 #include "ShiftedContacts.hpp"
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
+#include <pkg/solver/BlockProblem.hpp>
 #include <pkg/solver/SignoriniCoulombSolver.hpp>
 #include <string>
 #include <vector>
@@ -13,9 +14,9 @@
 namespace yade {
 
 class ContactDynamicsPhys;
-class Facet;
 class Interaction;
 class Scene;
+struct SurfaceContact;
 
 /// One step of ContactDynamicsEngine in flat arrays: the scene is gathered once, solved, and scattered once.
 /// Bodies and contacts are ordered by id, so the problem does not depend on threads or on the order in which YADE met the pairs.
@@ -39,7 +40,7 @@ struct ContactDynamicsStep {
 	void collectContacts(const Scene& scene, const std::string& contactLaw, Real warmStart);
 	/// After collectContacts(): recognises a two-dimensional scene, whose disks are solved as balls.
 	void usePlane();
-	contactdynamics::SolveReport solve(Real tolerance, int maxIterations);
+	contactdynamics::SolveReport solve(Real tolerance, int maxIterations, bool accelerated);
 	void apply(Scene& scene);
 	/// After apply(): displaces bodies that overlap, see PenetrationRepair.
 	/// @param rate     largest share of an overlap that is taken away [-], 0 ... 1; 0 only measures
@@ -49,13 +50,13 @@ struct ContactDynamicsStep {
 	std::vector<Twist> end() const; // velocities at the end of the step by solver index
 	boost::python::list velocitiesById(const std::vector<Twist>& twists) const;
 	boost::python::list angularMomentaById() const;
-	boost::python::dict asDictionary() const; // see ContactDynamicsEngine.lastProblem
+	boost::python::dict asDictionary() const;	   // see ContactDynamicsEngine.lastProblem
+	boost::python::dict normsAsDictionary() const; // see ContactDynamicsEngine.convergenceNorms
 
 private:
 	/// What the contacts need of a body, looked up once a step instead of once a contact.
 	struct BodyView {
 		const State* state = nullptr; // null: erased
-		const Facet* facet = nullptr; // null: no facet
 		Real radius = 0;			  // 0: no sphere [m]
 		int index = -1;				  // into problem.bodies; that of the clump for a member
 		bool member = false;		  // of a clump
@@ -76,8 +77,10 @@ private:
 		Vector3r force, torque;
 	};
 
+	contactdynamics::BlockProblem assembledProblem(const char* caller) const;
 	void gatherInteractions(const Scene& scene);
-	void dropDoubledFacetContacts(const Scene& scene);
+	void settleSurfaceSeams(const Scene& scene);
+	static void passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts);
 	void describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const;
 	void requireUsable(const Link& link, const contactdynamics::Contact& contact) const;
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;
@@ -85,6 +88,7 @@ private:
 	Vector3r relativeVelocity(const contactdynamics::Contact& contact, const Twist& of1, const Twist& of2) const;
 	void shiftContacts(Real warmStart);
 	void trackEnergy(Scene& scene);
+	Real powerOnPrescribed(int index, const Vector3r& force, const Vector3r& torque) const;
 	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
 	static void leaveOut(Link& link);
 	Real sizeOf(std::size_t contact) const;

@@ -46,6 +46,7 @@ Real ContactEnergy::report(EnergyTracker& tracker, Real storedBefore) const
 	tell("contactImpact", impact);
 	tell("contactRestitution", restitution);
 	tell("contactCohesion", cohesion);
+	tell("contactBoundary", boundary);
 	if (stored != 0 || storedBefore != 0) tell("contactElastic", stored, true);
 	tell("contactDamping", compliant - (stored - storedBefore));
 	return stored;

@@ -80,8 +80,8 @@ def forces_and_torques() -> tuple[np.ndarray, np.ndarray, float]:
 def test_forces_of_a_step_sum_to_zero() -> None:
     """With gravity, a floor and clumps: gravity is not in O.forces, so the rest is contacts.
 
-    Torques are taken with the positions at the start of the step, where the contacts were collected. The floor has its
-    centre a metre below, its position times its force enters as well. Penetration repair would move the bodies in between.
+    Torques are taken with the positions at the start of the step, where the contacts were collected: the way back from those at its end is
+    that of the velocity alone, so penetration repair is off. The floor has its centre a metre below, its position times its force enters as well.
     """
     cloud(np.random.default_rng(10))
     for b in O.bodies:
