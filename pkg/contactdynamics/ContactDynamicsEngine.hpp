@@ -27,6 +27,7 @@ private:
 	void collect();
 	void solve();
 	void apply();
+	void repair();
 
 	struct Admitted {
 		Real tolerance = 1e-4;
