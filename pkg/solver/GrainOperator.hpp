@@ -25,6 +25,7 @@ public:
 	static bool isWorthThreads(std::size_t contacts) { return contacts >= 3000; } ///< below, handing out the colours costs more than it brings
 	static constexpr int firstCheck = 0; ///< a certificate costs six sweeps: wait until the increments promise convergence
 	bool anyAwake() const { return awake > 0; }
+	std::size_t awakeContacts() const { return awake; } ///< those that a sweep visits
 
 	SweepNorms sweep(Extrapolation by);
 	bool mend();
