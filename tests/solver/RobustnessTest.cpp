@@ -45,7 +45,7 @@ GrainProblem degenerate(std::mt19937_64& random, bool solvable)
 		}
 		problem.bodies.push_back(body);
 	}
-	const int contacts = 1 + int(80 * std::pow(uniform(random), 3));
+	const int contacts = 1 + int(500 * std::pow(uniform(random), 12)); // most are small, one in eighteen has more than 250
 	for (int k = 0; k < contacts; ++k) {
 		if (k && uniform(random) < 0.2) {
 			problem.contacts.push_back(problem.contacts[std::size_t(k * uniform(random))]);
@@ -83,7 +83,8 @@ TEST(Robustness, ThousandsOfDegenerateProblemsEndWithATruthfulStatus)
 		const GrainProblem free = problem;
 		const SolveReport report = solver.solve(problem, options);
 		ASSERT_NE(report.status, SolveStatus::notFinite) << k;
-		ASSERT_EQ(report.status == SolveStatus::converged, report.residual <= options.tolerance) << k;
+		ASSERT_EQ(report.status != SolveStatus::maxIterations, report.residual <= options.tolerance) << k;
+		ASSERT_FALSE(solvable && report.status == SolveStatus::unbounded) << k;
 		const double independent = independent::residual(free, problem);
 		ASSERT_TRUE(std::isfinite(independent)) << k;
 		// The independent residual knows no round-off threshold: where all there is left is round-off, the approach itself must be.

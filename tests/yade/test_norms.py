@@ -146,7 +146,8 @@ def test_a_grain_squeezed_by_driven_walls_is_not_called_converged(capfd) -> None
     for _ in range(5):
         O.step()
         assert not cd().converged
-        assert cd().maxApproachSpeed == pytest.approx(0.1, rel=1e-2)
+        # Shared between the two contacts, or all on one of them.
+        assert 0.0999 <= cd().maxApproachSpeed <= 0.2001
     assert "no solution" in capfd.readouterr().err
     state(left).vel = state(right).vel = Vector3(0, 0, 0)
     steps(2)
