@@ -131,8 +131,8 @@ void ContactDynamicsEngine::apply()
 	maxPenetration = step->maxPenetration;
 	meanPenetration = step->meanPenetration;
 	step->repairPenetration(*scene, repairRate, allowedOverlap);
-	remainingOverlap = step->repair.remainingOverlap();
-	repairDisplacement = step->repair.largestDisplacement();
+	remainingOverlap = step->remainingOverlap;
+	repairDisplacement = step->repairDisplacement;
 }
 
 boost::python::list ContactDynamicsEngine::freeVelocities() const { return step->velocitiesById(step->free); }

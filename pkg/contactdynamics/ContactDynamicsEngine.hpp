@@ -32,7 +32,7 @@ private:
 		Real tolerance = 1e-4;
 		int maxIterations = 1000;
 		string contactLaw = "quasiInelasticShock", onNonConvergence = "warn", acceleration = "default";
-		Real repairRate = 0, allowedOverlap = 1e-5;
+		Real repairRate = 0.1, allowedOverlap = 1e-5;
 	} admitted;
 	bool warned = false;
 
@@ -67,12 +67,12 @@ public:
 		((Real,maxPenetration,0,Attr::readonly,"Largest overlap of two bodies at the positions the last solve started from [m], ≥ 0."))
 		((Real,meanPenetration,0,Attr::readonly,"Mean overlap of the active contacts at the positions the last solve started from, those with a gap counted as 0 [m]."))
 		((Real,maxApproachSpeed,0,Attr::readonly,"Largest speed at which a contact still violates its condition after the last solve, max(0, −(U_N + max(0,g)/h)) for the default law [m/s]; divided by the speed gravity gives in a step, h·g, it tells what the residual means in motion."))
-		((Real,repairRate,0,Attr::triggerPostLoad,"Share of the overlap beyond :yref:`allowedOverlap<ContactDynamicsEngine.allowedOverlap>` that penetration repair takes away in a step [-], 0 … 1, all overlaps in the same proportion: so much that the deepest one shrinks by 1e-4 of a radius, but at least 0.006 and at most this rate. "
-			"Overlaps, left by the residual of the solve or by a packing made with a soft law, are removed by displacing the bodies (pseudo-velocities from a frictionless contact problem in which loaded contacts stay closed; true masses, no rotation, blocked translations kept); velocities and impulses do not change, so no kinetic energy comes from it. "
-			"Default 0: off, because it costs a second solve in every step with an overlap and is not yet tried on large packings. 0.1 is gentle enough that grains stay supported while a soft packing grows to its rigid size. A value outside raises ValueError. A step without overlaps is the same, bit for bit, with and without repair."))
-		((Real,allowedOverlap,1e-5,Attr::triggerPostLoad,"Overlap that :yref:`repairRate<ContactDynamicsEngine.repairRate>` leaves alone, in radii of the smaller sphere of the contact [-], ≥ 0. Default 1e-5: contacts at rest stay closed instead of opening and closing by round-off. A negative value raises ValueError."))
-		((Real,remainingOverlap,0,Attr::readonly,"Largest overlap expected at the end of the last step, after repair [m], ≥ 0: gap at its start plus way along the normal."))
-		((Real,repairDisplacement,0,Attr::readonly,"Largest displacement of a body by penetration repair in the last step [m]; at most 1e-2 of the smallest radius."))
+		((Real,repairRate,0.1,Attr::triggerPostLoad,"Share of the overlap beyond :yref:`allowedOverlap<ContactDynamicsEngine.allowedOverlap>` that penetration repair takes away in a step [-], 0 … 1, all overlaps in the same proportion: so much that the deepest one shrinks by 1e-4 of its contact's size, but at least 0.006 and at most this rate. "
+			"Overlaps, left by the residual of the solve or by a packing made with a soft law, are removed by displacing the bodies (pseudo-velocities from a frictionless contact problem in which loaded contacts stay closed; true masses, no rotation, blocked translations kept); velocities and impulses do not change, so no kinetic energy comes from it. What bodies gain in weight times height is ``contactRepair`` in ``O.energy``. "
+			"Default 0.1: gentle enough that supported grains stay supported, for a few percent of the time of a step with overlaps. 0 switches it off; then overlaps stay as they are. A value outside raises ValueError. A step without overlaps is the same, bit for bit, with and without repair."))
+		((Real,allowedOverlap,1e-5,Attr::triggerPostLoad,"Overlap that :yref:`repairRate<ContactDynamicsEngine.repairRate>` leaves alone, in sizes of the contact [-], ≥ 0: the radius of the smaller sphere, the shorter lever arm where there is no sphere. Deeper ones are brought to half of it. Default 1e-5: contacts at rest stay closed instead of opening and closing by round-off. A negative value raises ValueError."))
+		((Real,remainingOverlap,0,Attr::readonly,"Largest overlap left at the end of the last step, after repair [m], ≥ 0; an overlap counts that is there at the start of the step and that its motion does not remove."))
+		((Real,repairDisplacement,0,Attr::readonly,"Largest displacement of a body by penetration repair in the last step [m]; at most 1e-2 of the smallest size of a contact."))
 		((Real,impulseTimeStep,0,(Attr::readonly|Attr::hidden),"Time step of the impulses stored with the contacts [s]."))
 		((Real,elasticEnergy,0,(Attr::readonly|Attr::hidden),"Elastic energy of compliant contacts after the last step with O.trackEnergy [J]."))
 		,

@@ -9,6 +9,7 @@
 #include "OneContact.hpp"
 #include "OneContact2D.hpp"
 
+#include <algorithm>
 #include <type_traits>
 
 namespace contactdynamics {
@@ -35,7 +36,11 @@ public:
 
 	void start()
 	{
-		for (std::size_t i = 0; i < lanes.size(); ++i) put(i, projected(at(problem.impulse, i), problem.friction[i]));
+		atZero = std::all_of(problem.impulse.begin(), problem.impulse.end(), [](double r) { return r == 0; });
+		if (atZero)
+			std::fill(lanes.begin(), lanes.end(), ImpulseLanes());
+		else
+			for (std::size_t i = 0; i < lanes.size(); ++i) put(i, projected(at(problem.impulse, i), problem.friction[i]));
 	}
 
 	static constexpr bool startsPlainly = false; ///< BlockSolver sees to that
@@ -53,16 +58,13 @@ public:
 			}
 		} else
 			for (Visited& contact : visited) contact.direction = contact.increment;
+		atZero = false;
 		SweepNorms norms;
 		for (std::size_t i = 0; i < lanes.size(); ++i) {
 			Visited& contact = visited[i];
-			const Vector x = impulse(i), u = velocityAt(i);
-			Vector r;
-			if constexpr (D == 2)
-				r = contact.local.solve(u - contact.W * x, problem.friction[i]);
-			else
-				r = contact.local.solve(u - contact.W * x, problem.friction[i], contact.slidingRate);
+			const Vector x = impulse(i), r = contact.visit(x, velocityAt(i), problem.friction[i]);
 			contact.increment = r - x;
+			if (r[0] == 0 && contact.increment[0] == 0) continue; // stays open
 			put(i, r);
 			norms.increment2 += contact.increment.dot(contact.W * contact.increment);
 			norms.impulse2 += r.dot(contact.W * r);
@@ -79,8 +81,10 @@ public:
 			const Vector u = velocityAt(i), q = at(problem.q, i), r = impulse(i);
 			const double mu = problem.friction[i];
 			if (measure == Measure::siconos) {
-				const auto F = naturalMap<Tangent>(split(r), split(u), mu, 1, 0);
-				error2 += F.n * F.n + F.t.squaredNorm();
+				if (r[0] != 0 || u[0] < 0) {
+					const auto F = naturalMap<Tangent>(split(r), split(u), mu, 1, 0);
+					error2 += F.n * F.n + F.t.squaredNorm();
+				}
 				q2 += q.squaredNorm();
 				r2 += r.squaredNorm();
 				u2 += u.squaredNorm();
@@ -106,10 +110,8 @@ public:
 			report.maxApproachSpeed = std::max(report.maxApproachSpeed, -u[0]);
 			report.activeContacts += lanes[i].lane[0] > 0;
 		}
-		if constexpr (D == 2) {
-			prepare();
-			for (std::size_t i = 0; i < lanes.size(); ++i) report.ambiguousContacts += !visited[i].local.isUnique(problem.friction[i]);
-		}
+		if constexpr (D == 2)
+			for (std::size_t i = 0; i < lanes.size(); ++i) report.ambiguousContacts += !OneContact2D(diagonalBlock(i)).isUnique(problem.friction[i]);
 	}
 
 	/// Contacts that impulses, however large, do not stop.
@@ -169,6 +171,17 @@ private:
 		Block W; // symmetric part of the diagonal block
 		Vector increment = Vector::Zero(), direction = Vector::Zero();
 		double slidingRate = 0;
+
+		/// Exact solution of this contact when its impulse x goes with the velocity u.
+		Vector visit(const Vector& x, const Vector& u, double mu)
+		{
+			const double bn = u[0] - W.row(0).dot(x);
+			if (!(bn < 0)) return Vector::Zero();
+			if constexpr (D == 2)
+				return local.solve(u - W * x, mu);
+			else
+				return local.solve(u - W * x, mu, slidingRate);
+		}
 	};
 
 	BlockProblem& problem;
@@ -176,6 +189,7 @@ private:
 	BlockProduct product;
 	BlockRows rows;
 	std::vector<ImpulseLanes> lanes;
+	bool atZero = false;		  // all impulses are zero
 	std::vector<Visited> visited; // empty until the first visit: a start that solves the problem does without
 
 	void prepare()
@@ -183,14 +197,19 @@ private:
 		if (!visited.empty()) return;
 		visited.resize(lanes.size());
 		for (std::size_t i = 0; i < visited.size(); ++i) {
-			Block W = Block::Zero();
-			for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k)
-				if (std::size_t(problem.column[k]) == i)
-					W += Eigen::Map<const Eigen::Matrix<double, D, D, Eigen::RowMajor>>(&problem.blocks[D * D * std::size_t(k)]);
-			// The visit works with the increments of u, so that a symmetric local operator leaves the solution of the whole as it is.
-			visited[i].W = 0.5 * (W + W.transpose());
+			visited[i].W = diagonalBlock(i);
 			visited[i].local = Local(visited[i].W);
 		}
+	}
+
+	/// Its symmetric part: the visit works with the increments of u, so that a symmetric local operator leaves the solution of the whole as it is.
+	Block diagonalBlock(std::size_t i) const
+	{
+		Block W = Block::Zero();
+		for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k)
+			if (std::size_t(problem.column[k]) == i)
+				W += Eigen::Map<const Eigen::Matrix<double, D, D, Eigen::RowMajor>>(&problem.blocks[D * D * std::size_t(k)]);
+		return 0.5 * (W + W.transpose());
 	}
 
 	Eigen::Map<const Vector> at(const std::vector<double>& values, std::size_t i) const { return Eigen::Map<const Vector>(&values[D * i]); }
@@ -208,6 +227,7 @@ private:
 
 	void put(std::size_t i, const Vector& r)
 	{
+		atZero = false;
 		if constexpr (D == 2)
 			lanes[i] = {{r[0], r[1], r[0], r[1]}};
 		else
@@ -216,6 +236,7 @@ private:
 
 	Vector velocityAt(std::size_t i) const
 	{
+		if (atZero) return at(problem.q, i);
 		Vector u;
 		product(rows, lanes.data(), i, i + 1, u.data());
 		return u;

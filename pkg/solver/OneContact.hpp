@@ -33,14 +33,20 @@ public:
 	double normalMobility() const { return Wnn; } ///< W_nn [1/kg]
 
 private:
-	double Wnn = 0;						   // [1/kg]
-	double wx = 0, wy = 0;				   // W_tn
-	double cosine = 1, sine = 0;		   // eigenvectors of A: (cosine, sine), (-sine, cosine)
-	double largeEigen = 0, smallEigen = 0; // of A, >= 0
+	double Wnn = 0, inverseWnn = 0;			   // [1/kg], [kg]
+	double cosine = 1, sine = 0;			   // eigenvectors of A: (cosine, sine), (-sine, cosine)
+	double wLarge = 0, wSmall = 0;			   // w along them
+	double largeEigen = 0, smallEigen = 0;	   // of A, >= 0
+	double inverseLarge = 0, inverseSmall = 0; // 0 for 0
+	double roundOff = 0;					   // of A [1/kg]
 
-	double roundOff = 0; // of A [1/kg]
-
-	double slidingRate(double cLarge, double cSmall, double wLarge, double wSmall, double bn, double mu, double guess) const;
+	/// What pushes the contact: b_n, c along the eigenvectors, mu / W_nn.
+	struct Pushed {
+		double normal, large, small, ratio;
+	};
+	struct Sliding;
+	Sliding slideAt(double k, const Pushed& pushed) const;
+	double slidingRate(const Pushed& pushed, double guess) const;
 };
 
 } // namespace contactdynamics

@@ -83,8 +83,11 @@ TEST(Robustness, ThousandsOfDegenerateProblemsEndWithATruthfulStatus)
 		const GrainProblem free = problem;
 		const SolveReport report = solver.solve(problem, options);
 		ASSERT_NE(report.status, SolveStatus::notFinite) << k;
-		ASSERT_EQ(report.status != SolveStatus::maxIterations, report.residual <= options.tolerance) << k;
-		ASSERT_FALSE(solvable && report.status == SolveStatus::unbounded) << k;
+		// Impulses without bound meet any tolerance and are no solution; where there is one, nobody may claim that there is none.
+		if (report.status == SolveStatus::unbounded)
+			ASSERT_FALSE(solvable) << k;
+		else
+			ASSERT_EQ(report.status == SolveStatus::converged, report.residual <= options.tolerance) << k;
 		const double independent = independent::residual(free, problem);
 		ASSERT_TRUE(std::isfinite(independent)) << k;
 		// The independent residual knows no round-off threshold: where all there is left is round-off, the approach itself must be.
