@@ -20,6 +20,8 @@ bool actsOnBodies(const Engine& engine)
 {
 	if (dynamic_cast<const NewtonIntegrator*>(&engine)) return false;
 	return dynamic_cast<const PartialEngine*>(&engine) || dynamic_cast<const FieldApplier*>(&engine);
+}
+
 /// With no law but soft ones, YADE would take theirs, which drops the contacts as long as there is a gap.
 bool hasLawForUs(const InteractionLoop& loop)
 {

@@ -43,6 +43,7 @@ public:
 			for (std::size_t i = 0; i < lanes.size(); ++i) put(i, projected(at(problem.impulse, i), problem.friction[i]));
 	}
 
+	static constexpr bool startsPlainly = false; ///< BlockSolver sees to that
 	bool anyAwake() const { return !lanes.empty(); }
 	bool mend() { return false; }
 

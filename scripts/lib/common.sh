@@ -9,6 +9,7 @@ BUILD_PACKAGES=(cmake g++ make libboost-python-dev libboost-serialization-dev li
 RUN_PACKAGES=(yade python3-h5py python3-numpy python3-matplotlib python3-pil python3-tqdm)
 TEST_PACKAGES=(python3-pytest)
 DOC_PACKAGES=(python3-sphinx)
+BENCH_PACKAGES=(libbenchmark-dev)
 
 say() { printf '\n==> %s\n' "$*"; }
 fail() {
