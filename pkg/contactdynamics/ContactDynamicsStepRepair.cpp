@@ -8,10 +8,10 @@
 
 namespace yade {
 
-/// Radius of the smaller sphere of a contact, 0 if there is none.
+/// Radius of the smaller sphere or polyhedron of a contact, 0 if there is none.
 Real ContactDynamicsStep::radiusOf(const Link& link) const
 {
-	const Real radius1 = views[link.interaction->getId1()].radius, radius2 = views[link.interaction->getId2()].radius;
+	const Real radius1 = views[link.interaction->getId1()].size, radius2 = views[link.interaction->getId2()].size;
 	return radius1 > 0 && radius2 > 0 ? std::min(radius1, radius2) : std::max(radius1, radius2);
 }
 

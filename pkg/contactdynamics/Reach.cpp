@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Reach.hpp"
+#include "ConvexShapes.hpp"
 #include <core/Body.hpp>
 #include <core/Cell.hpp>
 #include <core/Scene.hpp>
@@ -30,7 +31,7 @@ struct Surroundings {
 	std::vector<Real> speed, radius, reach; // by body id
 	Real smallestRadius = std::numeric_limits<Real>::infinity();
 	Real largestSpeed = 0;	// of all bodies
-	Real boundarySpeed = 0; // of bodies that are no spheres: they may be anywhere along their extent
+	Real boundarySpeed = 0; // of bodies that are neither spheres nor polyhedra: they may be anywhere along their extent
 };
 std::atomic<const Scene*> knownScene{nullptr};
 std::atomic<long> knownIter{-1};
@@ -46,7 +47,7 @@ Real turningRadius(const Shape& shape)
 		for (const Vector3r& vertex : facet->vertices) largest = std::max(largest, vertex.norm());
 		return largest;
 	}
-	return 0; // a turning sphere sweeps nothing
+	return polyhedronRadius(shape); // a turning sphere sweeps nothing
 }
 
 /// Speed the surface of the body may have in the coming step. A NaN counts as 0: the engine names the body that carries it.
@@ -81,14 +82,15 @@ Surroundings measureSpeeds(const Scene& scene)
 		if (body->isClump()) continue;
 		const int id = body->getId();
 		const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get());
-		if (sphere && sphere->radius > 0) {
-			around.radius[id] = sphere->radius;
-			around.smallestRadius = std::min(around.smallestRadius, sphere->radius);
+		const Real radius = sphere ? sphere->radius : body->shape ? polyhedronRadius(*body->shape) : 0;
+		if (radius > 0) {
+			around.radius[id] = radius;
+			around.smallestRadius = std::min(around.smallestRadius, radius);
 		}
 		const Real speed = surfaceSpeed(scene, *body, around.radius[id], gravity);
 		around.speed[id] = speed;
 		around.largestSpeed = std::max(around.largestSpeed, speed);
-		if (!sphere) around.boundarySpeed = std::max(around.boundarySpeed, speed);
+		if (!(radius > 0)) around.boundarySpeed = std::max(around.boundarySpeed, speed);
 	}
 	return around;
 }
