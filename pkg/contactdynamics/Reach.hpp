@@ -8,7 +8,7 @@ class Scene;
 /// How far a body may go within the coming step. Contacts are looked for up to the sum of two reaches, so that whatever two bodies
 /// can close in a step is seen before it happens:
 ///
-///     reach = h max(s, S) + r/20
+///     reach = h max(s, S) + r/20, for polyhedra r/100
 ///
 /// h is the time step, r the radius of a sphere or of the ball around a polyhedron (0 for other shapes), s the speed of the body's surface plus h
 /// times its acceleration by gravity and permanent force, and S the largest s near the body. Why S: an inelastic collision hands on at most the speed

@@ -85,7 +85,7 @@ private:
 		for (std::int32_t i = 0; i < face.count; i++) {
 			const Vector3 &from = seen[shape->loops[face.first + i]], &to = seen[shape->loops[face.first + (i + 1) % face.count]];
 			const double dx = to[0] - from[0], dy = to[1] - from[1];
-			if (side * (dx * (y - from[1]) - dy * (x - from[0])) < -close * std::hypot(dx, dy)) return false;
+			if (side * (dx * (y - from[1]) - dy * (x - from[0])) < -close * std::sqrt(dx * dx + dy * dy)) return false;
 			high = high || side * from[2] >= lowestOfInterest;
 		}
 		return high;
@@ -132,9 +132,10 @@ public:
 				const ConvexShape::Edge& edge2 = lower.shape->edges[j];
 				const Vector3 &c = lower.seen[edge2.from], &d = lower.seen[edge2.to];
 				if (!(lower.isOpen(edge2.left) || lower.isOpen(edge2.right)) || std::min(c[2], d[2]) - std::max(a[2], b[2]) > reach) continue;
+				if (apart(a, b, c, d, 0) || apart(a, b, c, d, 1)) continue;
 				const double x1 = b[0] - a[0], y1 = b[1] - a[1], x2 = d[0] - c[0], y2 = d[1] - c[1], x = c[0] - a[0], y = c[1] - a[1];
 				const double area = x1 * y2 - y1 * x2;
-				if (!(std::abs(area) > 1e-12 * std::hypot(x1, y1) * std::hypot(x2, y2))) continue; // parallel: their ends are points already
+				if (!(area * area > 1e-24 * (x1 * x1 + y1 * y1) * (x2 * x2 + y2 * y2))) continue; // parallel: their ends are points already
 				const double place1 = (x * y2 - y * x2) / area, place2 = (x * y1 - y * x1) / area;
 				if (!(place1 >= 0 && place1 <= 1 && place2 >= 0 && place2 <= 1)) continue;
 				add(a[0] + place1 * x1, a[1] + place1 * y1, a[2] + place1 * (b[2] - a[2]), c[2] + place2 * (d[2] - c[2]),
@@ -148,6 +149,11 @@ private:
 	std::vector<ManifoldPoint>& points;
 	Eigen::Matrix3d view;
 	inline static thread_local Terrain upper, lower;
+
+	static bool apart(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d, int axis)
+	{
+		return std::max(a[axis], b[axis]) < std::min(c[axis], d[axis]) || std::max(c[axis], d[axis]) < std::min(a[axis], b[axis]);
+	}
 
 	void add(double x, double y, double z1, double z2, std::int32_t feature)
 	{

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Separation.hpp"
 #include "ClosestFeatures.hpp"
+#include "PointDistance.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -71,7 +72,7 @@ public:
 
 	void nearestPoints()
 	{
-		if (!(best.gap > 0)) return;
+		if (!(best.gap > 0) || meetsAlongNormal()) return;
 		const ClosestPoints closest = closestPoints(one, two, best.normal, best.gap);
 		const double size = std::min(one.shape->radius, two.shape->radius);
 		best.witness = 0.5 * (closest.on1 + closest.on2);
@@ -119,6 +120,21 @@ private:
 			best.feature = feature;
 		}
 		return !(best.gap > reach);
+	}
+
+	/// Whether the line along the normal through the deciding features hits both: then the plane's gap is the distance of the bodies.
+	bool meetsAlongNormal() const
+	{
+		const std::int32_t face = best.feature.kind == DecidingFeature::faceOfOne ? best.feature.one : best.feature.two;
+		if (best.feature.kind == DecidingFeature::faceOfOne) return isAboveFace(one, face, extreme(two, -best.normal));
+		if (best.feature.kind == DecidingFeature::faceOfTwo) return isAboveFace(two, face, extreme(one, best.normal));
+		return false;
+	}
+
+	static const Vector3& extreme(const PlacedShape& shape, const Vector3& direction)
+	{
+		return *std::max_element(shape.vertices.begin(), shape.vertices.end(),
+								 [&](const Vector3& a, const Vector3& b) { return direction.dot(a) < direction.dot(b); });
 	}
 
 	static void nearEdges(const PlacedShape& own, const PlacedShape& other, double near, std::vector<std::int32_t>& found)
@@ -177,10 +193,6 @@ private:
 	/// Middle between the bodies where they are deepest in each other.
 	Vector3 witness() const
 	{
-		const auto extreme = [](const PlacedShape& shape, const Vector3& direction) {
-			return *std::max_element(shape.vertices.begin(), shape.vertices.end(),
-									 [&](const Vector3& a, const Vector3& b) { return direction.dot(a) < direction.dot(b); });
-		};
 		if (best.feature.kind == DecidingFeature::faceOfOne) return extreme(two, -best.normal) - 0.5 * best.gap * best.normal;
 		if (best.feature.kind == DecidingFeature::faceOfTwo) return extreme(one, best.normal) + 0.5 * best.gap * best.normal;
 		const ConvexShape::Edge &edge1 = one.shape->edges[best.feature.one], &edge2 = two.shape->edges[best.feature.two];

@@ -20,20 +20,18 @@ G = 9.81
 
 
 def build(count, seed):
-    """Walls around a square of ten bodies, and the bodies on a lattice above, turned at random."""
+    """Walls, and the bodies on a lattice between them, turned at random and free of each other; returns ids of both and the height."""
     stone = O.materials[O.materials.append(FrictMat(density=2600, frictionAngle=math.atan(0.5), young=1e9, poisson=0.2))]
-    side = math.ceil(count ** (1 / 3))
-    width = 1.15 * SIZE * side
-    walls = [O.bodies.append(wall(position, axis, sense=sense, material=stone)) for position, axis, sense in ((0, 2, 1), (0, 0, 1), (width, 0, -1), (0, 1, 1), (width, 1, -1))]
     rng = random.Random(seed)
-    bodies = []
-    for k in range(count):
-        body = polyhedra_utils.polyhedra(stone, size=(SIZE, SIZE, SIZE), seed=rng.randrange(10**6))
-        body.state.pos = Vector3(*(1.15 * SIZE * (0.5 + n) for n in (k % side, k // side % side, k // side**2)))
+    bodies = [polyhedra_utils.polyhedra(stone, size=(SIZE, SIZE, SIZE), seed=rng.randrange(10**6)) for _ in range(count)]
+    cell = 2.02 * max(vertex.norm() for body in bodies for vertex in body.shape.v)
+    side = math.ceil(count ** (1 / 3))
+    walls = [O.bodies.append(wall(position, axis, sense=sense, material=stone)) for position, axis, sense in ((0, 2, 1), (0, 0, 1), (cell * side, 0, -1), (0, 1, 1), (cell * side, 1, -1))]
+    for k, body in enumerate(bodies):
+        body.state.pos = Vector3(*(cell * (0.5 + n) for n in (k % side, k // side % side, k // side**2)))
         body.state.ori = Quaternion((rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)), rng.uniform(0, 3)) * body.state.ori
         body.state.vel = Vector3(rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), 0)
-        bodies.append(O.bodies.append(body))
-    return walls, bodies, 1.15 * SIZE * side
+    return walls, [O.bodies.append(body) for body in bodies], cell * side
 
 
 def main(count, seed, longest):
@@ -61,7 +59,7 @@ def main(count, seed, longest):
     overlaps = [max(0.0, -gap) for i in active for gap, force in zip(i.geom.gaps, i.phys.pointForces) if force.norm() > 0]
     support = -sum((i.phys.normalForce + i.phys.shearForce)[2] * (1 if i.id1 not in walls else -1) for i in active if i.id1 in walls or i.id2 in walls)
     print("RESULT " + json.dumps({
-        "bodies": count, "seed": seed, "threads": O.numThreads, "dt_s": O.dt, "steps": steps, "at_rest": at_rest,
+        "bodies": count, "size_m": SIZE, "seed": seed, "threads": O.numThreads, "dt_s": O.dt, "steps": steps, "at_rest": at_rest,
         "ms_per_step": 1e3 * spent / steps, "ms_per_step_at_rest": 1e3 * resting, "sweeps_per_step": iterations / steps, "steps_not_converged": unconverged,
         "touching_pairs": len(active), "points": cd.contacts, "loaded_points": cd.activeContacts,
         "mean_overlap_over_size": sum(overlaps) / len(overlaps) / SIZE, "max_overlap_over_size": max(overlaps) / SIZE,
