@@ -16,6 +16,7 @@
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/polyhedra/Polyhedra.hpp>
 
 #include <boost/core/demangle.hpp>
 #include <boost/python/data_members.hpp>
@@ -98,6 +99,7 @@ py::dict compiledLayout()
 
 	Rows(table, "Sphere").size<Sphere>() ROW(Sphere, radius);
 	Rows(table, "Box") ROW(Box, extents);
+	Rows(table, "Polyhedra").size<Polyhedra>() ROW(Polyhedra, v) ROW(Polyhedra, seed) ROW(Polyhedra, size);
 	Rows(table, "Wall") ROW(Wall, sense) ROW(Wall, axis);
 	Rows(table, "Facet").size<Facet>() ROW(Facet, vertices) ROW(Facet, normal) ROW(Facet, area);
 	Rows(table, "Clump") ROW(Clump, ids);

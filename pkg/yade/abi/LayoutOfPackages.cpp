@@ -15,6 +15,7 @@
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/polyhedra/Polyhedra.hpp>
 
 namespace yade {
 
@@ -78,6 +79,11 @@ STOCK_MEMBER(NewtonIntegrator, prevCellSize, 376)
 STOCK_MEMBER(NewtonIntegrator, warnNoForceReset, 400)
 STOCK_MEMBER(NewtonIntegrator, dampGravity, 409)
 STOCK_MEMBER(NewtonIntegrator, mask, 424)
+
+STOCK_CLASS(Polyhedra, 384, 384)
+STOCK_MEMBER(Polyhedra, v, 328)
+STOCK_MEMBER(Polyhedra, seed, 352)
+STOCK_MEMBER(Polyhedra, size, 360)
 
 STOCK_CLASS(ScGeom, 192, 192)
 STOCK_MEMBER(ScGeom, radius1, 144)
