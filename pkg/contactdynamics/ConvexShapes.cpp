@@ -18,8 +18,8 @@ struct Entry {
 	std::vector<Vector3r> from; // what the shape was worked out from
 	std::unique_ptr<contactdynamics::ConvexShape> shape;
 };
-std::unordered_map<const Shape*, Entry> known;
-std::shared_mutex guard;
+std::unordered_map<const Shape*, Entry> knownShapes;
+std::shared_mutex knownShapesGuard;
 
 /// The data of a shape as vectors, without a copy.
 struct Source {
@@ -71,8 +71,9 @@ contactdynamics::ConvexShape make(const Source& source)
 /// Shapes that are gone make room when the table would grow.
 void forgetTheDead()
 {
-	if (known.size() < static_cast<std::size_t>(known.max_load_factor() * static_cast<float>(known.bucket_count()))) return;
-	for (auto entry = known.begin(); entry != known.end();) entry = entry->second.owner.expired() ? known.erase(entry) : std::next(entry);
+	if (knownShapes.size() < static_cast<std::size_t>(knownShapes.max_load_factor() * static_cast<float>(knownShapes.bucket_count()))) return;
+	for (auto entry = knownShapes.begin(); entry != knownShapes.end();)
+		entry = entry->second.owner.expired() ? knownShapes.erase(entry) : std::next(entry);
 }
 } // namespace
 
@@ -80,16 +81,16 @@ const contactdynamics::ConvexShape& ConvexShapes::of(const shared_ptr<Shape>& sh
 {
 	const Source source(*shape);
 	{
-		const std::shared_lock<std::shared_mutex> reading(guard);
-		const auto found = known.find(shape.get());
-		if (found != known.end() && source.equals(found->second.from)) return *found->second.shape;
+		const std::shared_lock<std::shared_mutex> reading(knownShapesGuard);
+		const auto found = knownShapes.find(shape.get());
+		if (found != knownShapes.end() && source.equals(found->second.from)) return *found->second.shape;
 	}
 	auto made = std::make_unique<contactdynamics::ConvexShape>(make(source));
-	const std::lock_guard<std::shared_mutex> writing(guard);
-	const auto found = known.find(shape.get()); // another thread may have been faster, and its result may be in use
-	if (found != known.end() && source.equals(found->second.from)) return *found->second.shape;
-	if (found == known.end()) forgetTheDead();
-	Entry& entry = known[shape.get()];
+	const std::lock_guard<std::shared_mutex> writing(knownShapesGuard);
+	const auto found = knownShapes.find(shape.get()); // another thread may have been faster, and its result may be in use
+	if (found != knownShapes.end() && source.equals(found->second.from)) return *found->second.shape;
+	if (found == knownShapes.end()) forgetTheDead();
+	Entry& entry = knownShapes[shape.get()];
 	entry = {shape, std::vector<Vector3r>(source.first, source.first + source.count), std::move(made)};
 	return *entry.shape;
 }
