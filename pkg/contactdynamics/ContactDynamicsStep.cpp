@@ -59,6 +59,7 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 {
 	solved = false;
 	h = plan.h;
+	gravity = plan.gravity;
 	velGrad = plan.velGrad;
 	displacementAsVelocity = plan.velocityOfDisplacement();
 	const long count = static_cast<long>(scene.bodies->size());
@@ -264,13 +265,15 @@ void ContactDynamicsStep::leaveOut(Link& link)
 	link.phys->normalForce = Vector3r::Zero();
 	link.phys->shearForce = Vector3r::Zero();
 	link.phys->localVelocity = Vector3r::Zero();
+	link.phys->pseudoImpulse = 0;
 }
 
-contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxIterations)
+contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxIterations, bool accelerated)
 {
 	contactdynamics::SolverOptions options;
 	options.tolerance = tolerance;
 	options.maxIterations = maxIterations;
+	if (!accelerated) options.acceleration = contactdynamics::Acceleration::none;
 	options.threads = omp_get_max_threads();
 	const auto report = rolling.empty() ? solver.solve(problem, options) : rolling.solve(solver, problem, options);
 	solved = report.status != contactdynamics::SolveStatus::notFinite;
