@@ -44,29 +44,20 @@ def open_it() -> None:
     O.bodies.erase(1300)
 
 
-def straight(result: str) -> None:
-    """The whole run."""
-    build()
-    steps(FIRST)
-    _second(result)
-
-
-def until_half(scene: str) -> None:
+def first(scene: str) -> None:
     """The first part, saved."""
     build()
     steps(FIRST)
     O.save(scene)
 
 
-def from_half(scene: str, result: str) -> None:
-    """The second part, from a file."""
-    import contactdynamics  # noqa: F401  (a script that only loads a scene needs the classes)
-
-    O.load(scene)
-    _second(result)
-
-
-def _second(result: str) -> None:
+def to_the_end(result: str, scene: str = "") -> None:
+    """The whole run, or what is left of it from a file."""
+    if scene:
+        O.load(scene)
+    else:
+        build()
+        steps(FIRST)
     open_it()
     steps(SECOND)
     assert cd().activeContacts > 200
