@@ -20,8 +20,8 @@ def engines(
     """Return the complete ``O.engines`` of a Contact Dynamics scene of Sphere, Polyhedra, Box, Wall, Facet and Clump bodies.
 
     The list is ForceResetter, InsertionSortCollider, InteractionLoop, ContactDynamicsEngine (label ``cd``) and
-    NewtonIntegrator without damping (label ``newton``). Engines of your own that add forces or set velocities go
-    between the InteractionLoop and ``cd``, recorders and controllers behind the NewtonIntegrator::
+    NewtonIntegrator without damping (label ``newton``). Engines of your own that set velocities go right behind ForceResetter, those
+    that add forces between it and ``cd``, recorders and controllers behind the NewtonIntegrator::
 
         O.engines = contactdynamics.engines(gravity=(0, 0, -9.81)) + [PyRunner(command="report()", iterPeriod=100)]
 
