@@ -2,6 +2,7 @@
 #include "BlockSolver.hpp"
 
 #include "BlockOperator.hpp"
+#include "BlocksApart.hpp"
 #include "NewtonFinish.hpp"
 #include "SignoriniCoulombLoop.hpp"
 
@@ -34,8 +35,8 @@ public:
 		report.status = SolveStatus::notFinite;
 		if (!std::isfinite(best.residual)) return report;
 		if (!atBest) restore();
-		report.status = !solved() ? SolveStatus::maxIterations : runsAway() ? SolveStatus::unbounded : SolveStatus::converged;
 		blocks.finish(report);
+		report.status = !solved() ? SolveStatus::maxIterations : runsAway() ? SolveStatus::unbounded : SolveStatus::converged;
 		return report;
 	}
 
@@ -70,6 +71,7 @@ private:
 				continue;
 			}
 			if (!atBest) restore();
+			blocks.impulses(best.impulses);
 			const int steps = int(std::clamp(stepsPerSweeps * spent / sweepsOfStep, double(fewestSteps), double(mostSteps)));
 			report.newtonSteps += newton->improve(best, options.tolerance, steps);
 			atBest = false;
@@ -98,19 +100,17 @@ private:
 		atBest = true;
 	}
 
-	/// Whether the tolerance is met only because the impulses grow without bound. The point stays the best one.
+	/// Whether the tolerance is met only because the impulses grow without bound. The operator is left elsewhere.
 	bool runsAway()
 	{
+		if (report.maxApproachSpeed == 0) return false;
 		const CrushedContacts here = blocks.crushed(options.tolerance);
 		if (!here.any()) return false;
-		blocks.impulses(best.impulses);
 		SolverOptions further = options;
 		further.maxIterations = CrushedContacts::furtherSweeps(report.iterations);
 		further.tolerance = std::numeric_limits<double>::min();
 		signoriniCoulombLoop(blocks, further);
-		const bool stay = here.stay(blocks.crushed(options.tolerance));
-		blocks.setRaw(best.impulses);
-		return stay;
+		return here.stay(blocks.crushed(options.tolerance));
 	}
 
 	double last = 0; // residual after the last sweep
@@ -137,7 +137,8 @@ private:
 
 template <int D> SolveReport solveBlocks(BlockProblem& problem, const SolverOptions& options, Measure measure)
 {
-	return BlockSolver<D>(problem, options, measure).run();
+	SolveReport report;
+	return solveApart<D>(problem, options, measure, report) ? report : BlockSolver<D>(problem, options, measure).run();
 }
 
 template SolveReport solveBlocks<2>(BlockProblem&, const SolverOptions&, Measure);
