@@ -3,9 +3,9 @@
 
 #include "BallPack.hpp"
 #include "BlockProblem.hpp"
+#include "BlockResidual.hpp"
 #include "BlockRows.hpp"
 #include "CrushedContacts.hpp"
-#include "NaturalMap.hpp"
 #include "OneContact.hpp"
 #include "OneContact2D.hpp"
 
@@ -27,7 +27,7 @@ public:
 
 	/// Starts from the impulses of the problem, brought into their cones.
 	BlockOperator(BlockProblem& given, Measure measureOfResidual)
-		: firstCheck(given.contacts() < 20 ? 1 : 5), problem(given), measure(measureOfResidual),
+		: firstCheck(given.contacts() < 64 ? 1 : 5), problem(given), measure(measureOfResidual),
 		  product(selectBlockProduct<D>()), rows{given.rowStart.data(), given.column.data(), given.blocks.data(), given.q.data()},
 		  lanes(given.contacts())
 	{
@@ -79,29 +79,11 @@ public:
 	double certificate()
 	{
 		if (measure == Measure::naturalMap) prepare();
-		ResidualSum relative;
-		double error2 = 0, q2 = 0, r2 = 0, u2 = 0;
-		for (std::size_t i = 0; i < lanes.size(); ++i) {
-			const Vector u = velocityAt(i), q = at(problem.q, i), r = impulse(i);
-			const double mu = problem.friction[i];
-			if (measure == Measure::siconos) {
-				if (r[0] != 0 || u[0] < 0) {
-					const auto F = naturalMap<Tangent>(split(r), split(u), mu, 1, 0);
-					error2 += F.n * F.n + F.t.squaredNorm();
-				}
-				q2 += q.squaredNorm();
-				r2 += r.squaredNorm();
-				u2 += u.squaredNorm();
-			} else if (const double Wnn = visited[i].W(0, 0); Wnn > 0) {
-				const auto F = naturalMap<Tangent>(split(r), split(u), mu, Wnn, q.norm() + (u - q).norm());
-				Vector f;
-				f << F.n, F.t;
-				relative.add(f.dot(visited[i].W * f), r.dot(visited[i].W * r));
-			}
-		}
-		if (measure == Measure::naturalMap) return relative.value();
-		const double scale = std::sqrt(std::max({q2, r2, u2}));
-		return scale > 2.2e-16 ? std::sqrt(error2) / scale : std::sqrt(error2);
+		BlockResidual<D> residual(measure);
+		const Block none = Block::Zero();
+		for (std::size_t i = 0; i < lanes.size(); ++i)
+			residual.add(impulse(i), velocityAt(i), at(problem.q, i), problem.friction[i], measure == Measure::naturalMap ? visited[i].W : none);
+		return residual.value();
 	}
 
 	void finish(SolveReport& report)
@@ -125,7 +107,7 @@ public:
 		for (std::size_t i = 0; i < lanes.size(); ++i) largest = std::max(largest, -problem.q[D * i]);
 		CrushedContacts contacts(tolerance, largest);
 		for (std::size_t i = 0; i < lanes.size(); ++i) {
-			if (!(problem.q[D * i] < 0 && lanes[i].lane[0] > 0)) continue;
+			if (!(-problem.q[D * i] >= 0.01 * largest && lanes[i].lane[0] > 0)) continue;
 			prepare();
 			contacts.add(problem.q[D * i], velocityAt(i)[0], lanes[i].lane[0], visited[i].W(0, 0));
 		}
@@ -175,12 +157,17 @@ private:
 		Block W; // symmetric part of the diagonal block
 		Vector increment = Vector::Zero(), direction = Vector::Zero();
 		double slidingRate = 0;
+		bool known = false; // the eigenvectors of the local operator, when it first closes
 
 		/// Exact solution of this contact when its impulse x goes with the velocity u.
 		Vector visit(const Vector& x, const Vector& u, double mu)
 		{
 			const double bn = u[0] - W.row(0).dot(x);
 			if (!(bn < 0)) return Vector::Zero();
+			if (!known) {
+				local = Local(W);
+				known = true;
+			}
 			if constexpr (D == 2)
 				return local.solve(u - W * x, mu);
 			else
@@ -200,10 +187,7 @@ private:
 	{
 		if (!visited.empty()) return;
 		visited.resize(lanes.size());
-		for (std::size_t i = 0; i < visited.size(); ++i) {
-			visited[i].W = diagonalBlock(i);
-			visited[i].local = Local(visited[i].W);
-		}
+		for (std::size_t i = 0; i < visited.size(); ++i) visited[i].W = diagonalBlock(i);
 	}
 
 	/// Its symmetric part: the visit works with the increments of u, so that a symmetric local operator leaves the solution of the whole as it is.
