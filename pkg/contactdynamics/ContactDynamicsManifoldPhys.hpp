@@ -12,7 +12,7 @@ public:
 	virtual ~ContactDynamicsManifoldPhys() = default;
 
 	/// Before a solve: one entry of `ofPoint` for each point of the geometry, with the impulse and memory of the same point in the last step.
-	/// @param origin  a point that goes with body 1 [m]
+	/// @param origin  a point that goes with the bodies: the position of the one with the smaller id, as YADE may exchange them after O.load [m]
 	void followPoints(const ManifoldGeom& geom, const Vector3r& origin);
 	/// After a solve: resultant of the points, and its place in the geometry.
 	void sumUp(ManifoldGeom& geom);
@@ -28,7 +28,7 @@ public:
 		"The law of the pair is set here, before a step; coefficients hold at each point, but forces and stiffnesses of the pair (cohesionForce, cohesionShear, kn, ks, normalDamping) are shared equally by its points. Assigning :yref:`impulse<ContactDynamicsPhys.impulse>` shares it equally, too.",
 		((std::vector<shared_ptr<ContactDynamicsPhys>>,ofPoint,,(Attr::readonly|Attr::hidden),"One for each point of the geometry, in its order."))
 		((std::vector<int>,features,,(Attr::readonly|Attr::hidden),"Of the points, see ManifoldGeom."))
-		((std::vector<Vector3r>,places,,(Attr::readonly|Attr::hidden),"Of the points, from the position of body 1 [m]."))
+		((std::vector<Vector3r>,places,,(Attr::readonly|Attr::hidden),"Of the points, from the position of the body with the smaller id [m]."))
 		((Vector3r,knownImpulse,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Sum of the points' impulses when it was last worked out; another value in ``impulse`` has been assigned."))
 		,
 		createIndex();

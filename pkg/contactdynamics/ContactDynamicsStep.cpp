@@ -136,7 +136,7 @@ void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 			Interaction& interaction = *other.second;
 			gathered[omp_get_thread_num()].push_back(&interaction);
 			if (auto* manifold = manifoldPhys(interaction))
-				manifold->followPoints(static_cast<const ManifoldGeom&>(*interaction.geom), views[interaction.getId1()].state->pos);
+				manifold->followPoints(static_cast<const ManifoldGeom&>(*interaction.geom), body->state->pos);
 		}
 	});
 	links.clear();

@@ -112,14 +112,18 @@ std::vector<std::int32_t> boundary(const std::vector<Facet>& facets, int face)
 }
 } // namespace
 
-ConvexShape convexHull(const std::vector<Vector3>& points)
+ConvexShape convexHull(const std::vector<Vector3>& given)
 {
-	if (points.size() < 4) throw std::invalid_argument("a polyhedron needs at least four vertices");
+	if (given.size() < 4) throw std::invalid_argument("a polyhedron needs at least four vertices");
 	double size = 0;
-	for (const Vector3& point : points) {
+	for (const Vector3& point : given) {
 		if (!point.allFinite()) throw std::invalid_argument("a vertex of the polyhedron is not finite");
-		size = std::max(size, (point - points[0]).norm());
+		size = std::max(size, (point - given[0]).norm());
 	}
+	// Programs that work hulls out themselves, as YADE does, may hand the same vertices over in another order in every process.
+	std::vector<Vector3> points = given;
+	std::sort(points.begin(), points.end(),
+			  [](const Vector3& a, const Vector3& b) { return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3); });
 	std::vector<Facet> facets = facetsOfHull(points);
 	const std::vector<Vector3> normals = joinCoplanar(facets, points, coplanar * size);
 	if (normals.size() < 4) throw std::invalid_argument("the vertices of the polyhedron lie in one plane");

@@ -34,8 +34,8 @@ struct ConvexShape {
 /// Faces that are coplanar to this part of the radius are one face.
 constexpr double coplanar = 1e-11;
 
-/// Convex hull of `points`, coplanar facets joined. The topology is decided by CGAL's exact predicates, and numbered by the order of the points
-/// alone.
+/// Convex hull of `points`, coplanar facets joined. The topology is decided by CGAL's exact predicates, and numbered by the
+/// coordinates of the points: their order does not matter.
 /// @throws std::invalid_argument  fewer than four points, one that is not finite, or all in one plane (within coplanar * radius)
 ConvexShape convexHull(const std::vector<Vector3>& points);
 

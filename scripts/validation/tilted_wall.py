@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Dry running-bond wall tilted in its plane: stands below the angle of limit analysis, falls above it.
 
-    PYTHONPATH=build/python:scripts/validation yade -n -x scripts/validation/tilted_wall.py [COURSES [BRICKS]]
+    PYTHONPATH=build/python:scripts/validation yade -n -x scripts/validation/tilted_wall.py [COURSES [BRICKS [FRICTION]]]
 
 Limit analysis is a linear programme (static theorem) for the largest tangent of the tilt at which some forces between the bricks are in balance
 with their weights; solved by scipy (python3-scipy), with nothing of Contact Dynamics in it. Solved once more without a limit of friction it tells
-whether sliding takes part: if not, it does not matter that the theorem holds for associated friction only.
+whether sliding takes part: if not, it does not matter that the theorem holds for associated friction only. If it does (6 4 0.8), the programme gives
+an upper bound, below which Coulomb's friction lets the wall fall.
 """
 
 import math
@@ -84,9 +85,9 @@ def stands(wall, friction, tangent, seconds=3.0, h=2e-3):
     return way
 
 
-courses = int(sys.argv[1]) if len(sys.argv) > 1 else 6
-bricks = int(sys.argv[2]) if len(sys.argv) > 2 else 4
-friction = 0.8
+courses = int(sys.argv[1]) if len(sys.argv) > 1 else 8
+bricks = int(sys.argv[2]) if len(sys.argv) > 2 else 3
+friction = float(sys.argv[3]) if len(sys.argv) > 3 else 1.5
 wall = bond(courses, bricks)
 limit, frictionless = limitTangent(wall, friction), limitTangent(wall, 1e3)
 print(f"{courses} courses of {bricks} bricks, mu = {friction}: limit tangent {limit:.5f}, without a limit of friction {frictionless:.5f}", flush=True)

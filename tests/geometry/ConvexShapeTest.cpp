@@ -2,6 +2,7 @@
 #include "Bodies.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <stdexcept>
 
 using namespace bodies;
@@ -66,4 +67,18 @@ TEST(ConvexShape, RefusesWhatHasNoVolume)
 	EXPECT_THROW(convexHull({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}), std::invalid_argument);
 	EXPECT_THROW(convexHull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::nan("")}}), std::invalid_argument);
 	EXPECT_THROW(contactdynamics::triangle({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), std::invalid_argument);
+}
+
+TEST(ConvexShape, HullDoesNotDependOnTheOrderOfThePoints)
+{
+	Random random(8);
+	for (int attempt = 0; attempt < 50; attempt++) {
+		std::vector<Vector3> points(20);
+		for (Vector3& point : points) point = random.vector();
+		const ConvexShape before = convexHull(points);
+		std::reverse(points.begin(), points.end());
+		const ConvexShape after = convexHull(points);
+		EXPECT_EQ(before.vertices, after.vertices);
+		EXPECT_EQ(before.loops, after.loops);
+	}
 }

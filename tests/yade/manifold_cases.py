@@ -43,19 +43,25 @@ def numbers() -> str:
     return "\n".join(lines)
 
 
-def straight(result: str) -> None:
+def prepare(scene: str) -> None:
+    """The scene to start from, as a file: YADE's own calculation of a polyhedron's inertia differs by round-off from process to process."""
     build()
+    O.save(scene)
+
+
+def straight(scene: str, result: str) -> None:
+    O.load(scene)
     steps(150)
     with open(result, "w") as file:
         file.write(numbers())
 
 
-def halves(scene: str, result: str) -> None:
-    build()
-    steps(90)
-    O.save(scene)
-    O.reset()
+def halves(scene: str, half: str, result: str) -> None:
     O.load(scene)
+    steps(90)
+    O.save(half)
+    O.reset()
+    O.load(half)
     steps(60)
     with open(result, "w") as file:
         file.write(numbers())
