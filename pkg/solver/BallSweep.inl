@@ -77,6 +77,14 @@ inline void scatter(BodyState* bodies, const std::int32_t* index, const Side& si
 	}
 }
 
+inline void prefetchBodies(BodyState* bodies, const BallPack& pack)
+{
+	for (int i = 0; i < 4; ++i) {
+		__builtin_prefetch(at(bodies, pack.body1[i]), 1);
+		__builtin_prefetch(at(bodies, pack.body2[i]), 1);
+	}
+}
+
 inline double sum(Wide a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
 } // namespace
@@ -85,7 +93,9 @@ SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, std::size_t count, Ext
 {
 	const Wide zero = all(0), relax = all(extrapolation.relax), momentum = all(extrapolation.momentum);
 	Wide increment2 = zero, impulse2 = zero;
+	constexpr std::size_t ahead = 6; // packs: their bodies lie anywhere in memory, and only we know where
 	for (BallPack* pack = packs; pack != packs + count; ++pack) {
+		if (pack + ahead < packs + count) prefetchBodies(bodies, pack[ahead]);
 		Side one = gather(bodies, pack->body1), two = gather(bodies, pack->body2);
 		const Vector n = load(pack->normal);
 		const Wide arm1 = load(pack->arm1), arm2 = load(pack->arm2);
@@ -94,9 +104,9 @@ SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, std::size_t count, Ext
 		const Wide un = dot(u, n);
 		const Vector ut = u - un * n;
 
-		const Vector last = load(pack->increment), ahead = relax * last + momentum * load(pack->direction);
-		const Vector x = load(pack->impulse) + ahead;
-		store(pack->direction, last + ahead);
+		const Vector last = load(pack->increment), step = relax * last + momentum * load(pack->direction);
+		const Vector x = load(pack->impulse) + step;
+		store(pack->direction, last + step);
 		const Wide xn = dot(x, n);
 		const Vector xt = x - xn * n;
 

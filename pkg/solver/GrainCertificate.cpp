@@ -151,7 +151,21 @@ CrushedContacts GrainOperator::crushed(double tolerance) const
 		const double Wnn = localDelassus(b1, b2, c, contactFrame(c.normal))(0, 0) + c.normalCompliance;
 		found.add(free.dot(c.normal) + c.gapVelocity, uN, rN, Wnn);
 	}
-	return found;
+	return found.any() && mayStandStill() ? CrushedContacts(tolerance, 0) : found;
+}
+
+/// Whether no contact closes when every body stands still along all directions in which it can move.
+bool GrainOperator::mayStandStill() const
+{
+	const auto given = [](const Vector3& v, const Vector3& mobility) -> Vector3 { return (mobility.array() == 0).select(v, Vector3::Zero()); };
+	const auto at = [&](const Body& b, const Vector3& arm) -> Vector3 {
+		return given(b.velocity, b.inverseMass) + given(b.angularVelocity, b.inverseInertia.diagonal()).cross(arm);
+	};
+	for (const Contact& c : problem->contacts) {
+		const Vector3 u = at(problem->bodies[c.body2], c.arm2) + c.imageVelocity - at(problem->bodies[c.body1], c.arm1);
+		if (u.dot(c.normal) + c.gapVelocity < 0) return false;
+	}
+	return true;
 }
 
 void GrainOperator::finish(SolveReport& report)

@@ -24,13 +24,16 @@ public:
 	void start(GrainProblem& problem, bool accelerated, Crew& crew);
 	static bool isWorthThreads(std::size_t contacts) { return contacts >= 3000; } ///< below, handing out the colours costs more than it brings
 	static constexpr int firstCheck = 0; ///< a certificate costs six sweeps: wait until the increments promise convergence
+	static constexpr bool startsPlainly = true;
 	bool anyAwake() const { return awake > 0; }
+	std::size_t awakeContacts() const { return awake; } ///< those that a sweep visits
 
 	SweepNorms sweep(Extrapolation by);
 	bool mend();
 	double certificate();
 
-	/// Contacts that impulses, however large, do not stop, at the point of the last certificate().
+	/// Contacts that impulses, however large, do not stop, at the point of the last certificate(). None where standing still is admissible for all
+	/// that can move: then there is a solution, however slowly it is approached (a light grain between a wall and a heavy one).
 	CrushedContacts crushed(double tolerance) const;
 
 	/// Writes velocities, impulses and status of the last certificate() into the problem, and the counts into the report.
@@ -118,6 +121,7 @@ private:
 	void visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by);
 	void collectImpulses();
 	double speedsAt(const Contact& c) const;
+	bool mayStandStill() const;
 	void freeVelocities();
 	void rebuildVelocities();
 	Sums certify(std::size_t first, std::size_t last);

@@ -16,7 +16,7 @@ struct LoopResult {
 /// The Signorini-Coulomb loop of Jean (1999), 5.4, with its acceleration and stopping rule, over any operator (see Trajectory.hpp).
 ///
 /// Safeguard of the acceleration: once it has stalled, plain Gauss-Seidel starts from the impulses handed over, on an operator of its own, the
-/// rival, and keeps up with it. So a solve that stalls takes at most twice the sweeps of plain Gauss-Seidel, or as many and the 250 to 350 it took
+/// rival, and keeps up with it. So a solve that stalls takes at most twice the sweeps of plain Gauss-Seidel, or as many and the 120 to 350 it took
 /// to see the stall, whatever momentum does on that problem. The first certificate that is met ends the loop; otherwise the better of the two points
 /// is returned. Rejected: plain sweeps from where momentum had gone astray (a heap with mu = 1: not in 5000 sweeps what takes 2379 from the start);
 /// Anderson acceleration of depth 5 or 10 (no convergence in 5000 sweeps on 10 of 16 heaps with mu from 0.3 to 1, where

@@ -12,6 +12,7 @@ namespace contactdynamics {
 /// The sweeps of one operator, accelerated or not, and when its certificate is worth looking at. What it needs of the operator:
 ///
 ///     int firstCheck                          sweep after which the certificate is evaluated to gauge the increments; 0: not before they promise
+///     bool startsPlainly                      plain sweeps before momentum, while they promise to be done soon
 ///     bool anyAwake()                         false when no contact needs a visit
 ///     SweepNorms sweep(Extrapolation)         moves to the extrapolated point, then visits every awake contact once
 ///     bool mend()                             looks after sleeping contacts; true when one of them was woken
@@ -22,7 +23,7 @@ namespace contactdynamics {
 template <class Operator> class Trajectory {
 public:
 	Trajectory(Operator& given, const SolverOptions& options, bool accelerate)
-		: op(given), tolerance(options.tolerance), accelerated(accelerate), promise(options.tolerance)
+		: op(given), tolerance(options.tolerance), accelerated(accelerate), promise(options.tolerance), accelerator(Operator::startsPlainly)
 	{
 	}
 
@@ -45,7 +46,7 @@ public:
 			}
 		} else if (count % mendEvery == 0)
 			op.mend();
-		if (accelerated) extrapolation = accelerator.next(norms.increment2);
+		if (accelerated) extrapolation = accelerator.next(norms.increment2, promise * promise * norms.impulse2);
 		return false;
 	}
 

@@ -22,7 +22,8 @@ public:
 		double friction = 0.3;
 		double heavyShare = 0; ///< of the grains have a hundred times the mass
 		unsigned seed = 1;
-		int width = 0; ///< grains along a side of the base; 0: the cube root of their number
+		int width = 0;		///< grains along a side of the base; 0: the cube root of their number
+		double pitch = 2.6; ///< of the lattice, in mean radii; below 1.6 all neighbours overlap from the start
 	};
 	static constexpr double radius = 1e-3, gravity = 9.81;
 
@@ -32,7 +33,7 @@ public:
 		std::uniform_real_distribution<double> uniform(0, 1);
 		std::normal_distribution<double> normal;
 		const int side = setup.width > 0 ? setup.width : std::max(1, int(std::lround(std::cbrt(double(setup.grains)))));
-		const double pitch = 2.6 * radius;
+		const double pitch = setup.pitch * radius;
 		width = side * pitch;
 		bodies.push_back(fixedBody());
 		grains.push_back({Vector3::Zero(), 0});

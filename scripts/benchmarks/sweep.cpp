@@ -1,41 +1,109 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Built with -DCONTACTDYNAMICS_BENCHMARKS=ON as contactdynamics_sweep_benchmark.
-// Nanoseconds per ball contact and sweep, and per contact for the fixed parts of a solve. Heaps of spheres from tests/solver/Scenes.hpp, mu = 0.3,
-// seed 1. The counter "per_contact_sweep" is the time of a solve of 200 sweeps, set-up and certificate included, over active contacts and sweeps.
-#include "pkg/solver/SignoriniCoulombSolver.hpp"
-#include "tests/solver/Scenes.hpp"
+// Kernels of the grain solver on dense lattices of spheres (mu = 0.3, seed 1), and the memory bandwidth of the machine beside them; run by sweep.py.
+//
+//     triad        a = b + s c over arrays of 256 MB in all: bytes per second, 24 a number, as STREAM counts them
+//     sweep        one sweep with momentum over all contacts
+//     certificate  residual with fresh velocities
+//     start        everything before the first sweep: colouring, layout, start impulses
+#include "GrainBox.hpp"
+#include "pkg/solver/GrainOperator.hpp"
 
 #include <benchmark/benchmark.h>
+#include <thread>
 
 using namespace contactdynamics;
 
 namespace {
 
+/// The lattice for about so many contacts; three to a grain. Made once for all kernels.
+GrainProblem& lattice(std::int64_t contacts)
+{
+	static std::int64_t madeFor = 0;
+	static GrainProblem problem;
+	if (madeFor != contacts) {
+		GrainBox::Setup setup;
+		setup.grains = int(contacts / 3);
+		setup.pitch = 1.6;
+		problem = GrainBox(setup).next();
+		madeFor = contacts;
+	}
+	return problem;
+}
+
+void triad(benchmark::State& state)
+{
+	const std::size_t count = 256'000'000 / 24, threads = std::size_t(state.range(0));
+	std::vector<double> a(count), b(count, 1), c(count, 2);
+	const auto part = [&](std::size_t k) {
+		for (std::size_t i = k * count / threads; i < (k + 1) * count / threads; ++i) a[i] = b[i] + 3 * c[i];
+	};
+	for (auto _ : state) {
+		std::vector<std::thread> others;
+		for (std::size_t k = 1; k < threads; ++k) others.emplace_back(part, k);
+		part(0);
+		for (std::thread& other : others) other.join();
+		benchmark::ClobberMemory();
+	}
+	state.counters["bytes"] = 24.0 * double(count);
+}
+
+class Kernel {
+public:
+	explicit Kernel(const benchmark::State& state) : problem(lattice(state.range(0))), crew(int(state.range(1)))
+	{
+		crew.resume();
+		start();
+	}
+	void start() { grains.start(problem, true, crew); }
+
+	/// Bytes that cross the border of the caches in a sweep at least: every pack is read and three of its vectors written, every body read and
+	/// written in three arrays (velocity, velocity at the start of the sweep, direction).
+	void count(benchmark::State& state) const
+	{
+		const double contacts = double(grains.awakeContacts()), bodies = double(problem.bodies.size());
+		state.counters["contacts"] = contacts;
+		state.counters["bytes"] = contacts * (sizeof(BallPack) + 9 * 4 * sizeof(double)) / 4 + bodies * 6 * sizeof(BodyState);
+		state.counters["per_contact"] = benchmark::Counter(contacts, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+	}
+
+	GrainProblem& problem;
+	Crew crew;
+	GrainOperator grains;
+};
+
 void sweep(benchmark::State& state)
 {
-	const GrainProblem given = scenes::heap(int(state.range(0)), 1);
-	SolverOptions options;
-	options.tolerance = 1e-300; // never met: every solve does all its sweeps
-	options.maxIterations = 200;
-	options.threads = int(state.range(1));
-	SignoriniCoulombSolver solver;
-	GrainProblem problem;
-	SolveReport report;
-	for (auto _ : state) {
-		state.PauseTiming();
-		problem = given;
-		state.ResumeTiming();
-		report = solver.solve(problem, options);
-	}
-	state.counters["candidates"] = double(given.contacts.size());
-	state.counters["active"] = report.activeContacts;
-	state.counters["residual"] = report.residual;
-	const double visits = double(report.activeContacts) * report.iterations;
-	state.counters["per_contact_sweep"] = benchmark::Counter(visits, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+	Kernel kernel(state);
+	for (auto _ : state) kernel.grains.sweep({0.3, 0.2});
+	kernel.count(state);
+	state.counters["residual"] = kernel.grains.certificate();
 }
+
+void certificate(benchmark::State& state)
+{
+	Kernel kernel(state);
+	for (int i = 0; i < 5; ++i) kernel.grains.sweep({});
+	double residual = 0;
+	for (auto _ : state) residual = kernel.grains.certificate();
+	kernel.count(state);
+	state.counters["residual"] = residual;
+}
+
+void start(benchmark::State& state)
+{
+	Kernel kernel(state);
+	for (auto _ : state) kernel.start();
+	kernel.count(state);
+	state.counters["residual"] = kernel.grains.certificate();
+}
+
+const std::vector<std::int64_t> sizes{1000, 10000, 100000, 1000000}, threads{1, 2};
 
 } // namespace
 
-BENCHMARK(sweep)->ArgNames({"side", "threads"})->ArgsProduct({{8, 14, 22}, {1, 2}})->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(triad)->ArgNames({"threads"})->ArgsProduct({threads})->UseRealTime()->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(sweep)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK(certificate)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK(start)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
 
 BENCHMARK_MAIN();

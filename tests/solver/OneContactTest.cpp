@@ -89,6 +89,25 @@ struct Generator {
 		const Vector3 e(std::pow(10, -8 * uniform(engine)), std::pow(10, -8 * uniform(engine)), 1);
 		return basis * e.asDiagonal() * basis.transpose();
 	}
+	/// Any velocity, or a degenerate one: no approach or exactly none, no tangential part, along one axis, or on the edge between sticking and
+	/// sliding.
+	Vector3 freeVelocity(const Matrix3& W, double mu)
+	{
+		Vector3 b = vector();
+		const double kind = uniform(engine);
+		if (kind < 0.05)
+			b.tail<2>().setZero();
+		else if (kind < 0.10)
+			b[0] = 0;
+		else if (kind < 0.15)
+			b[1 + int(2 * uniform(engine))] = 0;
+		else if (kind < 0.20) {
+			const double angle = 2 * M_PI * uniform(engine);
+			b = -W * Vector3(1, mu * std::cos(angle), mu * std::sin(angle));
+		} else if (kind < 0.21)
+			b.setZero();
+		return b;
+	}
 	double friction() { return uniform(engine) < 0.1 ? 0 : 5 * std::pow(uniform(engine), 2); }
 };
 
@@ -102,7 +121,7 @@ TEST(OneContact, SatisfiesTheLawsAndIsFoundByBruteForce)
 		const bool singular = i % 4 == 3;
 		const Matrix3 W = singular ? random.nearlySingular() : random.rigidPair();
 		const double scale = std::pow(10, 6 * random.uniform(random.engine) - 3), mu = random.friction();
-		const Vector3 b = scale * random.vector();
+		const Vector3 b = scale * random.freeVelocity(W, mu);
 		const Vector3 r = OneContact(W).solve(b, mu);
 		// A hundred operations of 2.2e-16 each, all measured by |b| + |W| |r|.
 		ASSERT_LE(violation(W, b, mu, r), 2e-14) << "problem " << i << "\nW\n"

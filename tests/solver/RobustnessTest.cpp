@@ -45,7 +45,7 @@ GrainProblem degenerate(std::mt19937_64& random, bool solvable)
 		}
 		problem.bodies.push_back(body);
 	}
-	const int contacts = 1 + int(80 * std::pow(uniform(random), 3));
+	const int contacts = 1 + int(500 * std::pow(uniform(random), 12)); // most are small, one in eighteen has more than 250
 	for (int k = 0; k < contacts; ++k) {
 		if (k && uniform(random) < 0.2) {
 			problem.contacts.push_back(problem.contacts[std::size_t(k * uniform(random))]);
