@@ -60,9 +60,10 @@ def _set_motion(body: Any, velocity: Vector3, spin: Vector3) -> None:
 
 
 def release(member: int, clump: int, discretization: int = 0) -> None:
-    """Take a member out of a clump; it flies on as part of the rigid motion, and so does the rest. With only two members both are set free.
+    """Take a member out of a clump; it goes on with the rigid motion, and so does the rest. With only two members both are set free.
 
-    Linear and angular momentum stay what they were, to round-off, if the masses of member and rest add up to that of the clump (members that do not overlap).
+    Linear and angular momentum stay what they were, to round-off, if the masses of member and rest add up to that of the clump
+    (members that do not overlap).
 
     :param member: id of the member
     :param clump: id of the clump

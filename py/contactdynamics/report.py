@@ -111,8 +111,8 @@ def supportForce(ids: Iterable[int]) -> np.ndarray:
 def supportTorque(ids: Iterable[int], point: Iterable[float] = (0, 0, 0)) -> np.ndarray:
     """Moment of the forces on the given bodies about a point in the last step [N m], global axes; for a drum: what the grains turn it with.
 
-    For bodies that have not moved since the forces were found (a driven body has, by one step: an error of that order). ``TorqueRecorder`` of YADE 2023.02a takes
-    the arms of bodies off its axis with the wrong sign.
+    The forces belong to the places of the bodies before the last step; a driven body has moved since, so its arm is off by one step.
+    ``TorqueRecorder`` of YADE 2023.02a takes the arms of bodies off its axis with the wrong sign.
     """
     moments = [
         np.array(O.forces.t(i, sync=True)) + np.cross(np.array(O.bodies[i].state.pos) - np.array(list(point)), np.array(O.forces.f(i, sync=True)))

@@ -9,7 +9,8 @@ import contactdynamics
 
 # start of the script
 shell = O.bodies.append(geom.facetCylinder((0, 0, 0), 0.1, 0.06, orientation=Quaternion((1, 0, 0), math.pi / 2), segmentsNumber=24))
-balls = [O.bodies.append(sphere((0.022 * i - 0.033, 0.022 * j - 0.011, -0.06 + 0.022 * k), 0.01)) for i in range(4) for j in range(2) for k in range(3)]
+places = [(0.022 * i - 0.033, 0.022 * j - 0.011, 0.022 * k - 0.06) for i in range(4) for j in range(2) for k in range(3)]
+balls = [O.bodies.append(sphere(place, 0.01)) for place in places]
 O.engines = contactdynamics.engines(gravity=(0, 0, -9.81))
 turn = RotationEngine(ids=shell, rotationAxis=(0, 1, 0), angularVelocity=5, rotateAroundZero=True)
 O.engines = O.engines[:1] + [turn] + O.engines[1:]
@@ -26,7 +27,7 @@ def energy():
     return kinetic + sum(s.mass * 9.81 * (s.pos[2] - 0.5 * O.dt * s.vel[2]) for s in states)
 
 
-start = sum(O.bodies[b].state.mass * 9.81 * (-0.06 + 0.022 * (n % 3)) for n, b in enumerate(balls))
+start = sum(O.bodies[b].state.mass * 9.81 * place[2] for b, place in zip(balls, places))
 terms = {name: O.energy[name] for name in O.energy.keys() if name.startswith("contact")}
 work = -terms["contactBoundary"]
 print("work of the drum:", work, "J; terms:", terms)

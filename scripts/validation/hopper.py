@@ -3,8 +3,9 @@
 
     yade -n -x scripts/validation/hopper.py [grains=5000] [orifices=6,7.5,9,10.5]
 
-Beverloo, Leniger, van de Velde (1961): W = C rho_b sqrt(g) (D - k d)^2.5, with C about 0.58 and k about 1.4 for balls. W^(2/5) is fitted as a straight
-line in D; the fit gives C and k. The bed is filled once; the rings of the floor inside of an orifice are then erased in mid-run, and grains far below are, too.
+Beverloo, Leniger, van de Velde (1961): W = C rho_b sqrt(g) (D - k d)^2.5, with C about 0.58 and k about 1.4 for balls. W^(2/5) is
+fitted as a straight line in D; the fit gives C and k. The bed is filled once; the rings of the floor inside of an orifice are then erased
+in mid-run, and grains far below are, too.
 """
 import math
 import sys
@@ -131,7 +132,7 @@ D = np.array([r["D"] for r in results])
 scaled = np.array([r["flow"] / (r["density"] * math.sqrt(g) * d**2.5) for r in results]) ** 0.4
 slope, offset = np.polyfit(D, scaled, 1)
 worst = np.abs((slope * D + offset) ** 2.5 / scaled**2.5 - 1).max()
-print(f"bulk density {results[0]['density']:.0f} kg/m3; fit: C = {slope**2.5:.3f}, k = {-offset / slope:.2f}, largest deviation of a flow {100 * worst:.1f} %")
+print(f"bulk density {results[0]['density']:.0f} kg/m3; C = {slope**2.5:.3f}, k = {-offset / slope:.2f}, largest deviation {100 * worst:.1f} %")
 assert all(r["lost"] == 0 for r in results), "grains left through a wall"
 if len(results) > 2:
     assert worst < 0.05 and 0.4 < slope**2.5 < 0.8 and 0.5 < -offset / slope < 3

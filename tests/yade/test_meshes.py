@@ -26,10 +26,12 @@ def drum(segments: int) -> float:
 @pytest.mark.parametrize("segments", [24, 72, 200])
 @pytest.mark.parametrize("stride", [0.1, 0.3, 0.9])
 def test_ball_slides_round_in_a_polygon(segments: int, stride: float) -> None:
-    """Without friction and gravity each edge takes the part of the momentum across the next side: v cos(turn)^n after n edges, exactly.
+    """Without friction and weight each edge takes the momentum across the next side: v cos(turn)^n after n edges, exactly.
 
-    The step that reaches an edge goes as far as the next side allows, the one after it turns into that side; both together keep the velocity along it.
-    `stride` is the way of a step in sides of the polygon of centres, below 1 so that no step takes two corners. No impulse exceeds m v sin(turn), no side is entered, and nothing happens between edges.
+    The step that reaches an edge goes as far as the next side allows, the one after it turns into that side; both together keep the
+    velocity along it.
+    `stride` is the way of a step in sides of the polygon of centres, below 1 so that no step takes two corners. No impulse exceeds
+    m v sin(turn), no side is entered, and nothing happens between edges.
     """
     material(friction=0)
     turn = drum(segments)

@@ -184,7 +184,11 @@ def test_files_for_paraview(tmp_path: Path) -> None:
     """VTKRecorder: forces of contacts, forces on bodies, stresses; single precision."""
     heap()
     recorder = VTKRecorder(
-        fileName=str(tmp_path / "x-"), recorders=["spheres", "facets", "boxes", "intr", "force", "stress", "bstresses", "id"], ascii=True, compress=False, skipFacetIntr=False
+        fileName=str(tmp_path / "x-"),
+        recorders=["spheres", "facets", "boxes", "intr", "force", "stress", "bstresses", "id"],
+        ascii=True,
+        compress=False,
+        skipFacetIntr=False,
     )
     recorder()
     real = [i for i in O.interactions if i.isReal and type(O.bodies[i.id1].shape).__name__ == "Sphere"]
