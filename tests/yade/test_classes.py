@@ -249,7 +249,7 @@ def test_time_is_booked_for_each_part(capsys) -> None:
     yade.timing.reset()
     steps(20)
     booked = {label: (time, count) for label, time, count in cd().timingDeltas.data}
-    assert list(booked) == ["collect", "solve", "apply"]
+    assert list(booked) == ["collect", "solve", "apply", "repair"]
     assert all(count == 20 and time > 0 for time, count in booked.values())
     yade.timing.stats()
     shown = capsys.readouterr().out
