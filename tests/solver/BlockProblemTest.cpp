@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Explicit W: the same loop as for grains, the 2D closed form, and Siconos's measure.
-#include "IndependentResidual.hpp"
+#include "BlockScenes.hpp"
 #include "Scenes.hpp"
 #include "pkg/solver/BlockProblem.hpp"
 #include "pkg/solver/OneContact.hpp"
@@ -49,28 +49,6 @@ BlockProblem assembled(const GrainProblem& grains, std::vector<Matrix3>& frames)
 	return problem;
 }
 
-/// Siconos's formula once more, from its text.
-double siconosError(const BlockProblem& p)
-{
-	const int d = p.dimension;
-	double sum = 0, q = 0, r = 0, uu = 0;
-	for (std::size_t i = 0; i < p.contacts(); ++i) {
-		Vector3 u = Vector3::Zero(), reaction = Vector3::Zero();
-		for (int row = 0; row < d; ++row) {
-			u[row] = p.q[d * i + row];
-			for (int k = p.rowStart[i]; k < p.rowStart[i + 1]; ++k)
-				for (int col = 0; col < d; ++col) u[row] += p.blocks[d * d * k + d * row + col] * p.impulse[d * p.column[k] + col];
-			reaction[row] = p.impulse[d * i + row];
-			q += p.q[d * i + row] * p.q[d * i + row];
-		}
-		uu += u.squaredNorm();
-		r += reaction.squaredNorm();
-		const Vector3 z = reaction - u - p.friction[i] * u.tail<2>().norm() * Vector3::UnitX();
-		sum += (reaction - independent::nearestInCone(z, Vector3::UnitX(), p.friction[i])).squaredNorm();
-	}
-	return std::sqrt(sum) / std::sqrt(std::max({q, r, uu}));
-}
-
 SolverOptions upTo(double tolerance)
 {
 	SolverOptions options;
@@ -113,12 +91,12 @@ TEST(Blocks, SiconosMeasureIsItsFormula)
 		SolverOptions options = upTo(1e-14);
 		options.maxIterations = sweeps;
 		const SolveReport report = solve(solved, options, Measure::siconos);
-		EXPECT_NEAR(report.residual, siconosError(solved), 1e-10 * report.residual);
+		EXPECT_NEAR(report.residual, scenes::siconosError(solved), 1e-10 * report.residual);
 		EXPECT_DOUBLE_EQ(residualOf(solved, Measure::siconos), report.residual);
 	}
 	const SolveReport report = solve(problem, upTo(1e-8), Measure::siconos);
 	ASSERT_EQ(report.status, SolveStatus::converged);
-	EXPECT_LE(siconosError(problem), 1.0001e-8);
+	EXPECT_LE(scenes::siconosError(problem), 1.0001e-8);
 }
 
 TEST(Blocks, ClosedFormInTwoDimensionsAgreesWithTheGeneralSolution)
