@@ -119,14 +119,21 @@ void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 	parallelLoop(static_cast<long>(views.size()), [&](long id) {
 		const auto& body = (*scene.bodies)[id];
 		if (!body) return;
-		for (const auto& other : body->intrs)
-			if (other.first > id && other.first < static_cast<int>(views.size()) && views[other.first].state && contactDynamicsPhys(*other.second))
-				gathered[omp_get_thread_num()].push_back(other.second.get());
+		for (const auto& other : body->intrs) {
+			if (other.first <= id || other.first >= static_cast<int>(views.size()) || !views[other.first].state) continue;
+			Interaction& interaction = *other.second;
+			if (ContactDynamicsPhys* phys = contactDynamicsPhys(interaction))
+				gathered[omp_get_thread_num()].push_back(
+						{&interaction, phys, interaction.getId1(), interaction.getId2(), false, true, Vector3r::Zero(), Vector3r::Zero(), 0});
+		}
 	});
-	links.clear();
-	for (const auto& ofThread : gathered)
-		for (Interaction* interaction : ofThread)
-			links.push_back({interaction, contactDynamicsPhys(*interaction), false, true, Vector3r::Zero(), Vector3r::Zero(), 0});
+	std::vector<std::size_t>& first = firstOfThread;
+	first.assign(1, 0);
+	for (const auto& ofThread : gathered) first.push_back(first.back() + ofThread.size());
+	links.resize(first.back());
+#pragma omp parallel for schedule(static, 1) if (links.size() > 500)
+	for (std::size_t thread = 0; thread < gathered.size(); thread++)
+		std::copy(gathered[thread].begin(), gathered[thread].end(), links.begin() + static_cast<long>(first[thread]));
 }
 
 void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const
@@ -316,8 +323,8 @@ void ContactDynamicsStep::apply(Scene& scene)
 		activeContacts++;
 		penetrations += penetration;
 		const Vector3r force = (link.swapped ? -1 : 1) / h * contact.impulse;
-		Load& on1 = loads[link.interaction->getId1()];
-		Load& on2 = loads[link.interaction->getId2()];
+		Load& on1 = loads[link.id1];
+		Load& on2 = loads[link.id2];
 		on1.force -= force;
 		on1.torque -= link.arm1.cross(force);
 		on2.force += force;
@@ -326,8 +333,8 @@ void ContactDynamicsStep::apply(Scene& scene)
 	meanPenetration = activeContacts > 0 ? penetrations / activeContacts : 0;
 	for (const RollingFriction::Row& row : rolling.all()) {
 		const Vector3r torque = (row.swapped ? -1 : 1) / h * row.impulse;
-		loads[links[row.contact].interaction->getId1()].torque -= torque;
-		loads[links[row.contact].interaction->getId2()].torque += torque;
+		loads[links[row.contact].id1].torque -= torque;
+		loads[links[row.contact].id2].torque += torque;
 	}
 	if (scene.trackEnergy) trackEnergy(scene);
 

@@ -68,6 +68,7 @@ private:
 	struct Link {
 		Interaction* interaction;
 		ContactDynamicsPhys* phys;
+		int id1, id2; // of the interaction: known here without following the pointer
 		bool swapped, solved;
 		Vector3r arm1, arm2; // from the positions of the two bodies (not of their clumps) to the contact point [m]
 		Real gap;			 // [m]
@@ -104,10 +105,11 @@ private:
 	std::vector<PenetrationRepair::Candidate> candidates; // of the repair
 	std::vector<BodyView> views;						  // by body id
 	std::vector<int> idOfIndex;
-	std::vector<FreeMotion> motions;				 // by solver index
-	std::vector<std::vector<Interaction*>> gathered; // by thread
-	std::vector<Link> links;						 // parallel to problem.contacts once collected
-	std::vector<Load> loads;						 // contact force and torque by body id
+	std::vector<FreeMotion> motions;		 // by solver index
+	std::vector<std::vector<Link>> gathered; // by thread
+	std::vector<std::size_t> firstOfThread;	 // in links
+	std::vector<Link> links;				 // parallel to problem.contacts once collected
+	std::vector<Load> loads;				 // contact force and torque by body id
 	ShiftedContacts shifted;
 	RollingFriction rolling;
 	std::vector<char> bonded; // by contact, while energy is tracked: a bond may break in the step
