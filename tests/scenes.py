@@ -133,7 +133,7 @@ def rotation(number: int) -> np.ndarray:
 
 def contacts() -> list:
     """The interactions that belong to Contact Dynamics."""
-    return [i for i in O.interactions if i.isReal and type(i.phys).__name__ == "ContactDynamicsPhys"]
+    return [i for i in O.interactions if i.isReal and isinstance(i.phys, contactdynamics.ContactDynamicsPhys)]
 
 
 def active() -> list:

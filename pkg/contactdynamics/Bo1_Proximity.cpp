@@ -14,13 +14,18 @@ void Bo1_Proximity::delegateTo(const char* stockFunctor)
 	stock = boost::dynamic_pointer_cast<BoundFunctor>(ClassFactory::instance().createShared(stockFunctor));
 }
 
+void Bo1_Proximity::bound(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* body)
+{
+	if (stock->scene != scene) stock->scene = scene;
+	stock->go(shape, bound, se3, body);
+}
+
 void Bo1_Proximity::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* body)
 {
 	// A position that is not finite would spread through the sorted lists of the collider; the old bound (or none) does no harm, and
 	// the engine names the body in the same step.
 	if (!se3.position.allFinite()) return;
-	if (stock->scene != scene) stock->scene = scene;
-	stock->go(shape, bound, se3, body);
+	this->bound(shape, bound, se3, body);
 	Vector3r margin = Vector3r::Constant(Reach::ofBody(*scene, body->getId()));
 	if (scene->isPeriodic && scene->cell->hasShear()) {
 		// Bounds live in the unsheared cell, where a length may look longer by the inverse cosine of the skew angles.

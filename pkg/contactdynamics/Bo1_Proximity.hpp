@@ -14,6 +14,8 @@ public:
 protected:
 	/// To be called by the constructors: name of YADE's functor for the shape.
 	void delegateTo(const char* stockFunctor);
+	/// The bound before it is enlarged: that of YADE's functor, unless a class knows better.
+	virtual void bound(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* body);
 
 private:
 	shared_ptr<BoundFunctor> stock;

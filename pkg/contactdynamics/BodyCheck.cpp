@@ -46,4 +46,17 @@ void requirePositiveScaling(const Body& body, Real scaling)
 		refuse(body, "state.densityScaling", scaling, "with NewtonIntegrator.densityScaling it must be positive and finite");
 }
 
+void requirePositiveRadius(const Body& body, Real radius)
+{
+	if (!(radius > 0 && std::isfinite(radius))) refuse(body, "shape.radius", radius, "it must be positive and finite");
+}
+
+void requireFiniteGradient(const Matrix3r& velGrad)
+{
+	if (velGrad.allFinite()) return;
+	std::ostringstream message;
+	message << "O.cell.velGrad is (row by row) " << velGrad.row(0) << ", " << velGrad.row(1) << ", " << velGrad.row(2) << "; it must be finite.";
+	throw std::runtime_error(message.str());
+}
+
 } // namespace yade

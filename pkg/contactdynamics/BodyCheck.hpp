@@ -12,5 +12,9 @@ class Body;
 void requireUsableState(const Body& body, const Vector3r& force, const Vector3r& torque);
 /// @throws std::runtime_error  when the factor by which density scaling multiplies the body's accelerations is not positive and finite
 void requirePositiveScaling(const Body& body, Real scaling);
+/// @throws std::runtime_error  when the radius of the body's sphere is not positive and finite [m]
+void requirePositiveRadius(const Body& body, Real radius);
+/// @throws std::runtime_error  when the velocity gradient of the periodic cell is not finite [1/s]
+void requireFiniteGradient(const Matrix3r& velGrad);
 
 } // namespace yade

@@ -74,6 +74,8 @@ void ContactDynamicsEngine::action()
 	timingDeltas->checkpoint("solve");
 	apply();
 	timingDeltas->checkpoint("apply");
+	repair();
+	timingDeltas->checkpoint("repair");
 }
 
 void ContactDynamicsEngine::collect()
@@ -130,6 +132,10 @@ void ContactDynamicsEngine::apply()
 	activeContacts = step->activeContacts;
 	maxPenetration = step->maxPenetration;
 	meanPenetration = step->meanPenetration;
+}
+
+void ContactDynamicsEngine::repair()
+{
 	step->repairPenetration(*scene, repairRate, allowedOverlap);
 	remainingOverlap = step->remainingOverlap;
 	repairDisplacement = step->repairDisplacement;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsStep.hpp"
-#include "ContactDynamicsPhys.hpp"
+#include "BodyCheck.hpp"
+#include "ContactDynamicsManifoldPhys.hpp"
 #include "LocalFrame.hpp"
 #include "ParallelLoop.hpp"
 #include <core/Cell.hpp>
@@ -40,6 +41,12 @@ ContactDynamicsPhys* contactDynamicsPhys(const Interaction& interaction)
 	if (typeid(*phys) == typeid(ContactDynamicsPhys))
 		return static_cast<ContactDynamicsPhys*>(phys); // the common case, without a walk through the bases
 	return dynamic_cast<ContactDynamicsPhys*>(phys);
+}
+
+/// The parts of an interaction with several points; null in any other.
+ContactDynamicsManifoldPhys* manifoldPhys(const Interaction& interaction)
+{
+	return dynamic_cast<ManifoldGeom*>(interaction.geom.get()) ? dynamic_cast<ContactDynamicsManifoldPhys*>(interaction.phys.get()) : nullptr;
 }
 
 const char* nameOf(contactdynamics::ContactStatus status)
@@ -104,7 +111,10 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 				throw std::runtime_error("body #" + std::to_string(id) + " is a member of clump #" + std::to_string(body->clumpId) +
 										 ", which does not exist (any more).");
 		}
-		if (const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get())) view.radius = sphere->radius;
+		if (const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get())) {
+			requirePositiveRadius(*body, sphere->radius); // the collider passes over a sphere without a size, which then falls through all others
+			view.radius = sphere->radius;
+		}
 		view.fixed = immobile(motions[view.index]);
 		view.ball = view.fixed || (view.radius > 0 && !view.member && isotropic(motions[view.index]));
 	});
@@ -120,20 +130,30 @@ void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 		const auto& body = (*scene.bodies)[id];
 		if (!body) return;
 		for (const auto& other : body->intrs) {
-			if (other.first <= id || other.first >= static_cast<int>(views.size()) || !views[other.first].state) continue;
+			if (other.first <= id || other.first >= static_cast<int>(views.size()) || !views[other.first].state ||
+				!contactDynamicsPhys(*other.second))
+				continue;
 			Interaction& interaction = *other.second;
-			if (ContactDynamicsPhys* phys = contactDynamicsPhys(interaction))
-				gathered[omp_get_thread_num()].push_back(
-						{&interaction, phys, interaction.getId1(), interaction.getId2(), false, true, Vector3r::Zero(), Vector3r::Zero(), 0});
+			gathered[omp_get_thread_num()].push_back(&interaction);
+			if (auto* manifold = manifoldPhys(interaction))
+				manifold->followPoints(static_cast<const ManifoldGeom&>(*interaction.geom), views[interaction.getId1()].state->pos);
 		}
 	});
-	std::vector<std::size_t>& first = firstOfThread;
-	first.assign(1, 0);
-	for (const auto& ofThread : gathered) first.push_back(first.back() + ofThread.size());
-	links.resize(first.back());
-#pragma omp parallel for schedule(static, 1) if (links.size() > 500)
-	for (std::size_t thread = 0; thread < gathered.size(); thread++)
-		std::copy(gathered[thread].begin(), gathered[thread].end(), links.begin() + static_cast<long>(first[thread]));
+	links.clear();
+	manifolds.clear();
+	const auto link = [this](Interaction* interaction, ContactDynamicsPhys* phys, int point) {
+		links.push_back({interaction, phys, false, true, Vector3r::Zero(), Vector3r::Zero(), 0, point});
+	};
+	for (const auto& ofThread : gathered)
+		for (Interaction* interaction : ofThread) {
+			auto* manifold = manifoldPhys(*interaction);
+			if (!manifold) {
+				link(interaction, contactDynamicsPhys(*interaction), -1);
+				continue;
+			}
+			manifolds.push_back({static_cast<ManifoldGeom*>(interaction->geom.get()), manifold});
+			for (std::size_t i = 0; i < manifold->ofPoint.size(); i++) link(interaction, manifold->ofPoint[i].get(), static_cast<int>(i));
+		}
 }
 
 void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const
@@ -148,8 +168,14 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 	contact = contactdynamics::Contact();
 	contact.normal = geom.normal;
 	link.gap = -geom.penetrationDepth;
-	link.arm1 = view1.radius > 0 ? Vector3r((view1.radius + 0.5 * link.gap) * geom.normal) : Vector3r(geom.contactPoint - view1.state->pos);
-	link.arm2 = view2.radius > 0 ? Vector3r(-(view2.radius + 0.5 * link.gap) * geom.normal) : Vector3r(geom.contactPoint - view2.state->pos - shift);
+	Vector3r point = geom.contactPoint;
+	if (link.point >= 0) {
+		const ManifoldGeom& manifold = static_cast<const ManifoldGeom&>(geom);
+		link.gap = manifold.gaps[link.point];
+		point = manifold.points[link.point];
+	}
+	link.arm1 = view1.radius > 0 ? Vector3r((view1.radius + 0.5 * link.gap) * geom.normal) : Vector3r(point - view1.state->pos);
+	link.arm2 = view2.radius > 0 ? Vector3r(-(view2.radius + 0.5 * link.gap) * geom.normal) : Vector3r(point - view2.state->pos - shift);
 	contact.body1 = view1.index;
 	contact.body2 = view2.index;
 	contact.ball = view1.ball && view2.ball;
@@ -172,7 +198,7 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 		contact.arm2 = Vector3r::Zero();
 	}
 
-	link.swapped = view1.radius > 0 && view2.radius > 0 && interaction.getId1() > interaction.getId2();
+	link.swapped = (link.point >= 0 || (view1.radius > 0 && view2.radius > 0)) && interaction.getId1() > interaction.getId2();
 	if (link.swapped) {
 		std::swap(contact.body1, contact.body2);
 		std::swap(contact.arm1, contact.arm2);
@@ -308,6 +334,7 @@ void ContactDynamicsStep::apply(Scene& scene)
 	shifted.restore(problem);
 	rolling.remember();
 	parallelLoop(static_cast<long>(links.size()), [&](long i) { writeBack(links[i], problem.contacts[i]); });
+	parallelLoop(static_cast<long>(manifolds.size()), [&](long i) { manifolds[i].phys->sumUp(*manifolds[i].geom); });
 
 	// One sum a body, in the order of the contacts: adding from several threads would make the last bits depend on their number.
 	loads.assign(views.size(), {Vector3r::Zero(), Vector3r::Zero()});
@@ -323,8 +350,8 @@ void ContactDynamicsStep::apply(Scene& scene)
 		activeContacts++;
 		penetrations += penetration;
 		const Vector3r force = (link.swapped ? -1 : 1) / h * contact.impulse;
-		Load& on1 = loads[link.id1];
-		Load& on2 = loads[link.id2];
+		Load& on1 = loads[link.interaction->getId1()];
+		Load& on2 = loads[link.interaction->getId2()];
 		on1.force -= force;
 		on1.torque -= link.arm1.cross(force);
 		on2.force += force;
@@ -333,8 +360,8 @@ void ContactDynamicsStep::apply(Scene& scene)
 	meanPenetration = activeContacts > 0 ? penetrations / activeContacts : 0;
 	for (const RollingFriction::Row& row : rolling.all()) {
 		const Vector3r torque = (row.swapped ? -1 : 1) / h * row.impulse;
-		loads[links[row.contact].id1].torque -= torque;
-		loads[links[row.contact].id2].torque += torque;
+		loads[links[row.contact].interaction->getId1()].torque -= torque;
+		loads[links[row.contact].interaction->getId2()].torque += torque;
 	}
 	if (scene.trackEnergy) trackEnergy(scene);
 

@@ -13,8 +13,10 @@
 
 namespace yade {
 
+class ContactDynamicsManifoldPhys;
 class ContactDynamicsPhys;
 class Interaction;
+class ManifoldGeom;
 class Scene;
 struct SurfaceContact;
 
@@ -67,12 +69,16 @@ private:
 	/// YADE chose: that order may differ after O.load, and with it the last bits.
 	struct Link {
 		Interaction* interaction;
-		ContactDynamicsPhys* phys;
-		int id1, id2; // of the interaction: known here without following the pointer
+		ContactDynamicsPhys* phys; // that of the point
 		bool swapped, solved;
 		Vector3r arm1, arm2; // from the positions of the two bodies (not of their clumps) to the contact point [m]
 		Real gap;			 // [m]
+		int point = -1;		 // of a ManifoldGeom; -1 for a contact with one point
 		bool plain = true;	 // see ContactDynamicsPhys::isPlain
+	};
+	struct Manifold { // contact with several points, each of which is a link
+		ManifoldGeom* geom;
+		ContactDynamicsManifoldPhys* phys;
 	};
 	struct Load {
 		Vector3r force, torque;
@@ -105,11 +111,11 @@ private:
 	std::vector<PenetrationRepair::Candidate> candidates; // of the repair
 	std::vector<BodyView> views;						  // by body id
 	std::vector<int> idOfIndex;
-	std::vector<FreeMotion> motions;		 // by solver index
-	std::vector<std::vector<Link>> gathered; // by thread
-	std::vector<std::size_t> firstOfThread;	 // in links
-	std::vector<Link> links;				 // parallel to problem.contacts once collected
-	std::vector<Load> loads;				 // contact force and torque by body id
+	std::vector<FreeMotion> motions;				 // by solver index
+	std::vector<std::vector<Interaction*>> gathered; // by thread
+	std::vector<Link> links;						 // parallel to problem.contacts once collected
+	std::vector<Manifold> manifolds;
+	std::vector<Load> loads; // contact force and torque by body id
 	ShiftedContacts shifted;
 	RollingFriction rolling;
 	std::vector<char> bonded; // by contact, while energy is tracked: a bond may break in the step

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "EngineOrder.hpp"
+#include <core/InteractionLoop.hpp>
 #include <core/PartialEngine.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/FieldApplier.hpp>
@@ -20,16 +21,24 @@ bool actsOnBodies(const Engine& engine)
 	if (dynamic_cast<const NewtonIntegrator*>(&engine)) return false;
 	return dynamic_cast<const PartialEngine*>(&engine) || dynamic_cast<const FieldApplier*>(&engine);
 }
+
+/// With no law but soft ones, YADE would take theirs, which drops the contacts as long as there is a gap.
+bool hasLawForUs(const InteractionLoop& loop)
+{
+	const auto& laws = loop.lawDispatcher->functors;
+	return std::any_of(laws.begin(), laws.end(), [](const auto& law) { return law->get2DFunctorType2() == "ContactDynamicsPhys"; });
+}
 } // namespace
 
 const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& engine)
 {
 	const NewtonIntegrator* newton = nullptr;
-	bool resetBefore = false, loopBefore = false, passed = false, newtonBehind = false;
+	bool resetBefore = false, loopBefore = false, lawBefore = false, passed = false, newtonBehind = false;
 	int integrators = 0;
 	std::string intruder; // between this engine and the integrator
 	for (const auto& other : scene.engines) {
 		if (other.get() == &engine) {
+			require(!passed, "it stands twice in O.engines, so it would solve the contacts again that it has just solved. Remove one.");
 			passed = true;
 			continue;
 		}
@@ -44,7 +53,10 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 																		"O.engines, where there are no contact forces yet that it could follow. "
 																		"Put it behind NewtonIntegrator.");
 		if (name == "ForceResetter") resetBefore |= !passed;
-		if (name == "InteractionLoop") loopBefore |= !passed;
+		if (const auto* loop = dynamic_cast<const InteractionLoop*>(other.get())) {
+			loopBefore |= !passed;
+			lawBefore |= hasLawForUs(*loop);
+		}
 		if (const auto* candidate = dynamic_cast<const NewtonIntegrator*>(other.get())) {
 			newton = candidate;
 			newtonBehind = passed;
@@ -60,7 +72,11 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 	require(resetBefore, "no ForceResetter stands before this engine in O.engines, so forces of past steps would add up; make it the first engine.");
 	require(loopBefore,
 			"no InteractionLoop stands before this engine in O.engines, so there are no contacts to solve; put it between collider and engine.");
-	std::ostringstream damping;
+	require(lawBefore, "no InteractionLoop in O.engines has a law for ContactDynamicsPhys, so contacts would be lost; give it "
+					   "Law2_ScGeom_ContactDynamicsPhys_SignoriniCoulomb().");
+	std::ostringstream gravity, damping;
+	gravity << newton->gravity.transpose();
+	require(newton->gravity.allFinite(), "NewtonIntegrator.gravity is " + gravity.str() + "; it must be finite.");
 	damping << newton->damping;
 	require(newton->damping == 0,
 			"NewtonIntegrator.damping is " + damping.str() + "; it must be 0: damped velocities no longer satisfy the contact law.");

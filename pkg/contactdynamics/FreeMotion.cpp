@@ -14,6 +14,7 @@ IntegratorPlan::IntegratorPlan(const Scene& scene, const NewtonIntegrator& newto
 	const Cell& cell = *scene.cell;
 	const bool changes = cell.velGradChanged || cell.nextVelGrad != Matrix3r::Zero();
 	velGrad = changes ? cell.nextVelGrad : cell.velGrad;
+	if (periodic) requireFiniteGradient(velGrad);
 	velGradChange = velGrad - prevVelGrad;
 	const Matrix3r spin = .5 * (velGradChange - velGradChange.transpose());
 	spinChange = Vector3r(-spin(1, 2), spin(0, 2), -spin(0, 1));

@@ -5,6 +5,7 @@
 #include <core/Clump.hpp>
 #include <core/Dispatching.hpp>
 #include <core/GlobalEngine.hpp>
+#include <core/InteractionLoop.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/ElastMat.hpp>
@@ -15,6 +16,7 @@
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/polyhedra/Polyhedra.hpp>
 
 #include <boost/core/demangle.hpp>
 #include <boost/python/data_members.hpp>
@@ -67,6 +69,7 @@ py::dict compiledLayout()
 
 	Rows(table, "Engine") ROW(Engine, dead) ROW(Engine, ompThreads) ROW(Engine, label) ROW(Engine, timingDeltas);
 	Rows(table, "GlobalEngine").size<GlobalEngine>();
+	Rows(table, "InteractionLoop") ROW(InteractionLoop, lawDispatcher);
 	Rows(table, "NewtonIntegrator") ROW(NewtonIntegrator, damping) ROW(NewtonIntegrator, gravity) ROW(NewtonIntegrator, exactAsphericalRot)
 			ROW(NewtonIntegrator, prevVelGrad) ROW(NewtonIntegrator, mask);
 
@@ -96,6 +99,7 @@ py::dict compiledLayout()
 
 	Rows(table, "Sphere").size<Sphere>() ROW(Sphere, radius);
 	Rows(table, "Box") ROW(Box, extents);
+	Rows(table, "Polyhedra").size<Polyhedra>() ROW(Polyhedra, v) ROW(Polyhedra, seed) ROW(Polyhedra, size);
 	Rows(table, "Wall") ROW(Wall, sense) ROW(Wall, axis);
 	Rows(table, "Facet").size<Facet>() ROW(Facet, vertices) ROW(Facet, normal) ROW(Facet, area);
 	Rows(table, "Clump") ROW(Clump, ids);

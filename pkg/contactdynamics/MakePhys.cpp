@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "MakePhys.hpp"
-#include "ContactDynamicsPhys.hpp"
+#include "ContactDynamicsManifoldPhys.hpp"
 #include "RefusedInteraction.hpp"
 #include <core/Interaction.hpp>
 #include <core/Scene.hpp>
@@ -14,7 +14,8 @@ namespace yade {
 void makePhys(const Scene* scene, const FrictMat& material1, const FrictMat& material2, Interaction& interaction, const PairLaw& law)
 {
 	if (interaction.phys) return;
-	auto phys = boost::make_shared<ContactDynamicsPhys>();
+	const bool manifold = dynamic_cast<ManifoldGeom*>(interaction.geom.get());
+	shared_ptr<ContactDynamicsPhys> phys = manifold ? boost::make_shared<ContactDynamicsManifoldPhys>() : boost::make_shared<ContactDynamicsPhys>();
 	interaction.phys = phys;
 	const std::string pair = "contact #" + std::to_string(interaction.getId1()) + "+#" + std::to_string(interaction.getId2());
 	if (law.frictionAngle >= 0 && law.frictionAngle < M_PI_2) {

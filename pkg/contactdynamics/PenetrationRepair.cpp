@@ -7,8 +7,8 @@
 namespace yade {
 namespace {
 /// Sweeps a step, at most, there and back in turn. Packings of 150 and 400 grains with overlaps of 1 % are repaired alike with 10 and 40.
-constexpr int sweeps = 20;
-/// The sweeps end when they displace two bodies by less than this, of the largest displacement asked for.
+constexpr int sweeps = 10;
+/// Bodies are at rest when a sweep displaces them by less than this, of the largest displacement asked for.
 constexpr Real settled = 1e-3;
 /// gamma of the class comment, the compliance of the pull in units of W.
 constexpr Real pullCompliance = 1e-3;
@@ -51,6 +51,26 @@ Real PenetrationRepair::visit(const Row& row, Real& pseudoImpulse)
 	return std::abs(change) / row.weight;
 }
 
+/// There and back in turn. After the first sweep only rows with a body that the last one displaced are visited: most overlaps are few and far apart.
+void PenetrationRepair::sweep(std::vector<Candidate>& candidates, Real unnoticed)
+{
+	const auto count = static_cast<long>(rows.size());
+	stirred.assign(displacements.size(), 1);
+	for (int done = 0; done < sweeps; done++) {
+		restless.assign(displacements.size(), 0);
+		bool any = false;
+		for (long k = 0; k < count; k++) {
+			const long i = done % 2 == 0 ? k : count - 1 - k;
+			const Row& row = rows[i];
+			if (!(stirred[row.body1] || stirred[row.body2]) || row.weight == 0) continue;
+			if (visit(row, candidates[i].pseudoImpulse) <= unnoticed) continue;
+			restless[row.body1] = restless[row.body2] = any = true;
+		}
+		if (!any) return;
+		stirred.swap(restless);
+	}
+}
+
 void PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, std::vector<Candidate>& candidates, Real share, Real allowed)
 {
 	displacements.assign(solved.bodies.size(), Vector3r::Zero());
@@ -67,15 +87,7 @@ void PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, std::
 	}
 	for (std::size_t i = 0; i < rows.size(); i++)
 		if (candidates[i].pseudoImpulse != 0) move(rows[i], candidates[i].pseudoImpulse *= asked);
-	const auto count = static_cast<long>(rows.size());
-	for (int sweep = 0; sweep < sweeps; sweep++) {
-		Real changed = 0;
-		for (long k = 0; k < count; k++) {
-			const long i = sweep % 2 == 0 ? k : count - 1 - k;
-			if (rows[i].weight > 0) changed = std::max(changed, visit(rows[i], candidates[i].pseudoImpulse));
-		}
-		if (changed <= settled * asked) break;
-	}
+	sweep(candidates, settled * asked);
 	for (Candidate& candidate : candidates) candidate.pseudoImpulse /= asked;
 	limit(largestWay * smallest);
 }

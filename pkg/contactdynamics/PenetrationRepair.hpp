@@ -56,11 +56,13 @@ private:
 	};
 	std::vector<Row> rows; // parallel to the candidates
 	std::vector<Vector3r> displacements, mobilities;
+	std::vector<char> stirred, restless; // bodies that the last sweep displaced, and this one
 	Real largest = 0;
 
 	Row describe(const contactdynamics::Contact& contact, const Candidate& candidate, Real share, Real allowed) const;
 	void move(const Row& row, Real pseudoImpulse);
 	Real visit(const Row& row, Real& pseudoImpulse);
+	void sweep(std::vector<Candidate>& candidates, Real unnoticed);
 	void limit(Real allowedDisplacement);
 };
 

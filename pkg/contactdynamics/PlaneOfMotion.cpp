@@ -61,7 +61,7 @@ int ambiguousContacts(const GrainProblem& problem)
 {
 	int ambiguous = 0;
 	const long count = static_cast<long>(problem.contacts.size());
-#pragma omp parallel for schedule(static) reduction(+ : ambiguous)
+#pragma omp parallel for schedule(static) reduction(+ : ambiguous) if (count > 500) // as parallelLoop
 	for (long i = 0; i < count; i++) {
 		const Contact& contact = problem.contacts[i];
 		if (contact.ball || contact.friction == 0) continue;

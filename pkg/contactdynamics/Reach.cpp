@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Reach.hpp"
+#include "ConvexShapes.hpp"
 #include <core/Body.hpp>
 #include <core/Cell.hpp>
 #include <core/Scene.hpp>
@@ -19,6 +20,8 @@
 namespace yade {
 namespace {
 constexpr Real marginOfRadius = 0.05; // the sum over a pair is YADE's customary interactionDetectionFactor of 1.05
+/// Less for polyhedra, whose pairs have many points to be looked at.
+constexpr Real marginOfPolyhedron = 0.01;
 /// Below this way per step of the fastest body, in radii of the smallest sphere, its speed is granted to every body: the few more
 /// candidates cost less than the grid.
 constexpr Real slowStep = 0.5;
@@ -27,10 +30,10 @@ constexpr Real slowStep = 0.5;
 constexpr Real flightsPerCell = 4;
 
 struct Surroundings {
-	std::vector<Real> speed, radius, reach; // by body id
+	std::vector<Real> speed, radius, margin, reach; // by body id
 	Real smallestRadius = std::numeric_limits<Real>::infinity();
 	Real largestSpeed = 0;	// of all bodies
-	Real boundarySpeed = 0; // of bodies that are no spheres: they may be anywhere along their extent
+	Real boundarySpeed = 0; // of bodies that are neither spheres nor polyhedra: they may be anywhere along their extent
 };
 std::atomic<const Scene*> knownScene{nullptr};
 std::atomic<long> knownIter{-1};
@@ -46,7 +49,7 @@ Real turningRadius(const Shape& shape)
 		for (const Vector3r& vertex : facet->vertices) largest = std::max(largest, vertex.norm());
 		return largest;
 	}
-	return 0; // a turning sphere sweeps nothing
+	return polyhedronRadius(shape); // a turning sphere sweeps nothing
 }
 
 /// Speed the surface of the body may have in the coming step. A NaN counts as 0: the engine names the body that carries it.
@@ -77,18 +80,21 @@ Surroundings measureSpeeds(const Scene& scene)
 		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) gravity = newton->gravity.norm();
 	around.speed.assign(scene.bodies->size(), 0);
 	around.radius.assign(scene.bodies->size(), 0);
+	around.margin.assign(scene.bodies->size(), 0);
 	for (const auto& body : *scene.bodies) {
 		if (body->isClump()) continue;
 		const int id = body->getId();
 		const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get());
-		if (sphere && sphere->radius > 0) {
-			around.radius[id] = sphere->radius;
-			around.smallestRadius = std::min(around.smallestRadius, sphere->radius);
+		const Real radius = sphere ? sphere->radius : body->shape ? polyhedronRadius(*body->shape) : 0;
+		if (radius > 0) {
+			around.radius[id] = radius;
+			around.margin[id] = (sphere ? marginOfRadius : marginOfPolyhedron) * radius;
+			around.smallestRadius = std::min(around.smallestRadius, radius);
 		}
 		const Real speed = surfaceSpeed(scene, *body, around.radius[id], gravity);
 		around.speed[id] = speed;
 		around.largestSpeed = std::max(around.largestSpeed, speed);
-		if (!sphere) around.boundarySpeed = std::max(around.boundarySpeed, speed);
+		if (!(radius > 0)) around.boundarySpeed = std::max(around.boundarySpeed, speed);
 	}
 	return around;
 }
@@ -154,7 +160,7 @@ void spreadReaches(const Scene& scene, Surroundings& around)
 	for (const auto& body : *scene.bodies) {
 		const int id = body->getId();
 		const bool driven = !body->isDynamic() && !body->isClumpMember(); // nothing can be handed on to it
-		around.reach[id] = h * (driven ? around.speed[id] : std::max(around.speed[id], near[id])) + marginOfRadius * around.radius[id];
+		around.reach[id] = h * (driven ? around.speed[id] : std::max(around.speed[id], near[id])) + around.margin[id];
 	}
 }
 

@@ -8,12 +8,12 @@ class Scene;
 /// How far a body may go within the coming step. Contacts are looked for up to the sum of two reaches, so that whatever two bodies
 /// can close in a step is seen before it happens:
 ///
-///     reach = h max(s, S) + r/20
+///     reach = h max(s, S) + r/20, for polyhedra r/100
 ///
-/// h is the time step, r the radius (0 for anything but a sphere), s the speed of the body's surface plus h times its acceleration by gravity and
-/// permanent force, and S the largest s near the body. Why S: an inelastic collision hands on at most the speed of the faster body, and
-/// within one step the struck body may strike a third. Why only near it: one fast body must not make candidates of all neighbours
-/// in a large dense packing. "Near" is a coarse grid whose cells are several steps of the fastest body wide, see Reach.cpp. A velocity
+/// h is the time step, r the radius of a sphere or of the ball around a polyhedron (0 for other shapes), s the speed of the body's surface plus h
+/// times its acceleration by gravity and permanent force, and S the largest s near the body. Why S: an inelastic collision hands on at most the speed
+/// of the faster body, and within one step the struck body may strike a third. Why only near it: one fast body must not make candidates of all
+/// neighbours in a large dense packing. "Near" is a coarse grid whose cells are several steps of the fastest body wide, see Reach.cpp. A velocity
 /// gradient of the periodic cell counts by the velocity difference it makes over r.
 namespace Reach {
 /// Reach of one body [m]; 0 when the time step is not positive (the engine refuses such a step).

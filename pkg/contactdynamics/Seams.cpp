@@ -19,6 +19,7 @@ bool doubles(const SurfaceContact& one, const SurfaceContact& other, Real radius
 	const Vector3r point = nearestPoint(one, radius), otherPoint = nearestPoint(other, radius);
 	const Real size = std::max({point.norm(), one.surface.size(), other.surface.size()});
 	const Real close = closeness(size, radius);
+	if (!other.surface.mayBeWithin(point, close)) return false;
 	if ((other.surface.nearest(point) - point).norm() > close) return false;
 	if ((one.surface.nearest(otherPoint) - otherPoint).norm() > close) return true;
 	// Each of the two lies on the other surface: the nearer one stays, or the one with the smaller id if they differ by round-off only.

@@ -16,12 +16,19 @@ Surface::Surface(const Shape& shape, const State& state, const Vector3r& origin)
 {
 	if (const auto* facet = dynamic_cast<const Facet*>(&shape)) {
 		for (int i = 0; i < 3; i++) corners[i] = origin + state.ori * facet->vertices[i];
+		low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+		high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
 	} else if (const auto* box = dynamic_cast<const Box*>(&shape)) {
 		kind = Kind::box;
 		for (int i = 0; i < 3; i++) corners[i] = state.ori * Vector3r(box->extents[i] * Vector3r::Unit(i));
+		high = centre + corners[0].cwiseAbs() + corners[1].cwiseAbs() + corners[2].cwiseAbs();
+		low = 2 * centre - high;
 	} else if (const auto* wall = dynamic_cast<const Wall*>(&shape)) {
 		kind = Kind::wall;
 		corners[0] = Vector3r::Unit(wall->axis);
+		low = Vector3r::Constant(-std::numeric_limits<Real>::infinity());
+		high = -low;
+		low[wall->axis] = high[wall->axis] = centre[wall->axis];
 	} else {
 		throw std::logic_error("Surface: the shape is neither facet nor box nor wall");
 	}

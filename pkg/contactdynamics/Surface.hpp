@@ -16,6 +16,8 @@ public:
 	/// @throws std::logic_error  for another shape
 	Surface(const Shape& shape, const State& state, const Vector3r& origin);
 
+	/// False only when p is farther than `close` from the set; much cheaper than nearest().
+	bool mayBeWithin(const Vector3r& p, Real close) const { return ((p - low).array() >= -close).all() && ((p - high).array() <= close).all(); }
 	Vector3r nearest(const Vector3r& p) const; ///< point of the set that is nearest to p; p itself inside of a box
 	/// How far the set reaches in the direction of the unit vector n: the largest n·x of its points; infinite for most directions of a wall.
 	Real extent(const Vector3r& n) const;
@@ -30,6 +32,7 @@ private:
 	enum class Kind { facet, box, wall } kind = Kind::facet;
 	std::array<Vector3r, 3> corners; // facet: its corners; box: its half edges, as vectors; wall: the first is the normal
 	Vector3r centre;				 // of box and wall
+	Vector3r low, high;				 // corners of an upright box around the set
 };
 
 } // namespace yade

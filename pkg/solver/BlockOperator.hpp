@@ -3,9 +3,9 @@
 
 #include "BallPack.hpp"
 #include "BlockProblem.hpp"
+#include "BlockResidual.hpp"
 #include "BlockRows.hpp"
 #include "CrushedContacts.hpp"
-#include "NaturalMap.hpp"
 #include "OneContact.hpp"
 #include "OneContact2D.hpp"
 
@@ -27,7 +27,7 @@ public:
 
 	/// Starts from the impulses of the problem, brought into their cones.
 	BlockOperator(BlockProblem& given, Measure measureOfResidual)
-		: firstCheck(given.contacts() < 20 ? 1 : 5), problem(given), measure(measureOfResidual),
+		: firstCheck(given.contacts() < 64 ? 1 : 5), problem(given), measure(measureOfResidual),
 		  product(selectBlockProduct<D>()), rows{given.rowStart.data(), given.column.data(), given.blocks.data(), given.q.data()},
 		  lanes(given.contacts())
 	{
@@ -60,44 +60,30 @@ public:
 			for (Visited& contact : visited) contact.direction = contact.increment;
 		atZero = false;
 		SweepNorms norms;
+		Vector r; // of the last contact visited, stored by the next product
 		for (std::size_t i = 0; i < lanes.size(); ++i) {
 			Visited& contact = visited[i];
-			const Vector x = impulse(i), r = contact.visit(x, velocityAt(i), problem.friction[i]);
+			Vector u;
+			product(rows, lanes.data(), i, i + 1, u.data(), i > 0 ? r.data() : nullptr);
+			const Vector x = impulse(i);
+			r = contact.visit(x, u, problem.friction[i]);
 			contact.increment = r - x;
 			if (r[0] == 0 && contact.increment[0] == 0) continue; // stays open
-			put(i, r);
 			norms.increment2 += contact.increment.dot(contact.W * contact.increment);
 			norms.impulse2 += r.dot(contact.W * r);
 		}
+		if (!lanes.empty()) put(lanes.size() - 1, r);
 		return norms;
 	}
 
 	double certificate()
 	{
 		if (measure == Measure::naturalMap) prepare();
-		ResidualSum relative;
-		double error2 = 0, q2 = 0, r2 = 0, u2 = 0;
-		for (std::size_t i = 0; i < lanes.size(); ++i) {
-			const Vector u = velocityAt(i), q = at(problem.q, i), r = impulse(i);
-			const double mu = problem.friction[i];
-			if (measure == Measure::siconos) {
-				if (r[0] != 0 || u[0] < 0) {
-					const auto F = naturalMap<Tangent>(split(r), split(u), mu, 1, 0);
-					error2 += F.n * F.n + F.t.squaredNorm();
-				}
-				q2 += q.squaredNorm();
-				r2 += r.squaredNorm();
-				u2 += u.squaredNorm();
-			} else if (const double Wnn = visited[i].W(0, 0); Wnn > 0) {
-				const auto F = naturalMap<Tangent>(split(r), split(u), mu, Wnn, q.norm() + (u - q).norm());
-				Vector f;
-				f << F.n, F.t;
-				relative.add(f.dot(visited[i].W * f), r.dot(visited[i].W * r));
-			}
-		}
-		if (measure == Measure::naturalMap) return relative.value();
-		const double scale = std::sqrt(std::max({q2, r2, u2}));
-		return scale > 2.2e-16 ? std::sqrt(error2) / scale : std::sqrt(error2);
+		BlockResidual<D> residual(measure);
+		const Block none = Block::Zero();
+		for (std::size_t i = 0; i < lanes.size(); ++i)
+			residual.add(impulse(i), velocityAt(i), at(problem.q, i), problem.friction[i], measure == Measure::naturalMap ? visited[i].W : none);
+		return residual.value();
 	}
 
 	void finish(SolveReport& report)
@@ -121,7 +107,7 @@ public:
 		for (std::size_t i = 0; i < lanes.size(); ++i) largest = std::max(largest, -problem.q[D * i]);
 		CrushedContacts contacts(tolerance, largest);
 		for (std::size_t i = 0; i < lanes.size(); ++i) {
-			if (!(problem.q[D * i] < 0 && lanes[i].lane[0] > 0)) continue;
+			if (!(-problem.q[D * i] >= 0.01 * largest && lanes[i].lane[0] > 0)) continue;
 			prepare();
 			contacts.add(problem.q[D * i], velocityAt(i)[0], lanes[i].lane[0], visited[i].W(0, 0));
 		}
@@ -152,7 +138,7 @@ public:
 	}
 
 	/// u = W r + q [m/s] at the present impulses.
-	void velocities(std::vector<Vector>& u) const
+	void velocities(std::vector<Vector>& u)
 	{
 		u.resize(lanes.size());
 		for (std::size_t i = 0; i < lanes.size(); ++i) u[i] = velocityAt(i);
@@ -171,12 +157,17 @@ private:
 		Block W; // symmetric part of the diagonal block
 		Vector increment = Vector::Zero(), direction = Vector::Zero();
 		double slidingRate = 0;
+		bool known = false; // the eigenvectors of the local operator, when it first closes
 
 		/// Exact solution of this contact when its impulse x goes with the velocity u.
 		Vector visit(const Vector& x, const Vector& u, double mu)
 		{
 			const double bn = u[0] - W.row(0).dot(x);
 			if (!(bn < 0)) return Vector::Zero();
+			if (!known) {
+				local = Local(W);
+				known = true;
+			}
 			if constexpr (D == 2)
 				return local.solve(u - W * x, mu);
 			else
@@ -196,10 +187,7 @@ private:
 	{
 		if (!visited.empty()) return;
 		visited.resize(lanes.size());
-		for (std::size_t i = 0; i < visited.size(); ++i) {
-			visited[i].W = diagonalBlock(i);
-			visited[i].local = Local(visited[i].W);
-		}
+		for (std::size_t i = 0; i < visited.size(); ++i) visited[i].W = diagonalBlock(i);
 	}
 
 	/// Its symmetric part: the visit works with the increments of u, so that a symmetric local operator leaves the solution of the whole as it is.
@@ -234,11 +222,11 @@ private:
 			lanes[i] = {{r[0], r[1], r[2], 0}};
 	}
 
-	Vector velocityAt(std::size_t i) const
+	Vector velocityAt(std::size_t i)
 	{
 		if (atZero) return at(problem.q, i);
 		Vector u;
-		product(rows, lanes.data(), i, i + 1, u.data());
+		product(rows, lanes.data(), i, i + 1, u.data(), nullptr);
 		return u;
 	}
 };

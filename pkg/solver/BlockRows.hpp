@@ -20,14 +20,16 @@ struct alignas(32) ImpulseLanes {
 
 /// u = W r + q of the contacts from ... to - 1, one after the other, D numbers each. The blocks are used where they lie: each row of a block times
 /// the impulse is one wide product.
-using BlockProduct = void (*)(const BlockRows& rows, const ImpulseLanes* r, std::size_t from, std::size_t to, double* u);
+/// @param before  if any, the impulse of contact from - 1, stored first: in one piece, because the processor cannot hand several narrow stores on
+///                to the wide load that follows
+using BlockProduct = void (*)(const BlockRows& rows, ImpulseLanes* r, std::size_t from, std::size_t to, double* u, const double* before);
 
 /// The widest version this machine can run, D = 2 or 3. All versions give the same bits.
 template <int D> BlockProduct selectBlockProduct();
 
-void blockProduct2Baseline(const BlockRows&, const ImpulseLanes*, std::size_t, std::size_t, double*);
-void blockProduct3Baseline(const BlockRows&, const ImpulseLanes*, std::size_t, std::size_t, double*);
-void blockProduct2Avx2(const BlockRows&, const ImpulseLanes*, std::size_t, std::size_t, double*);
-void blockProduct3Avx2(const BlockRows&, const ImpulseLanes*, std::size_t, std::size_t, double*);
+void blockProduct2Baseline(const BlockRows&, ImpulseLanes*, std::size_t, std::size_t, double*, const double*);
+void blockProduct3Baseline(const BlockRows&, ImpulseLanes*, std::size_t, std::size_t, double*, const double*);
+void blockProduct2Avx2(const BlockRows&, ImpulseLanes*, std::size_t, std::size_t, double*, const double*);
+void blockProduct3Avx2(const BlockRows&, ImpulseLanes*, std::size_t, std::size_t, double*, const double*);
 
 } // namespace contactdynamics

@@ -11,11 +11,13 @@ typedef double Unaligned __attribute__((vector_size(32), aligned(8), may_alias))
 typedef long long Lanes __attribute__((vector_size(32)));
 
 inline Wide load(const double* p) { return *reinterpret_cast<const Unaligned*>(p); }
+inline void store(double* p, Wide a) { *reinterpret_cast<Unaligned*>(p) = a; }
 
 } // namespace
 
-void BLOCK_PRODUCT_2(const BlockRows& rows, const ImpulseLanes* r, std::size_t from, std::size_t to, double* u)
+void BLOCK_PRODUCT_2(const BlockRows& rows, ImpulseLanes* r, std::size_t from, std::size_t to, double* u, const double* before)
 {
+	if (before) store(r[from - 1].lane, Wide{before[0], before[1], before[0], before[1]});
 	for (std::size_t i = from; i < to; ++i, u += 2) {
 		Wide even{0, 0, 0, 0}, odd = even; // two chains of sums, because the processor waits for each addition
 		std::int32_t k = rows.rowStart[i];
@@ -31,8 +33,9 @@ void BLOCK_PRODUCT_2(const BlockRows& rows, const ImpulseLanes* r, std::size_t f
 	}
 }
 
-void BLOCK_PRODUCT_3(const BlockRows& rows, const ImpulseLanes* r, std::size_t from, std::size_t to, double* u)
+void BLOCK_PRODUCT_3(const BlockRows& rows, ImpulseLanes* r, std::size_t from, std::size_t to, double* u, const double* before)
 {
+	if (before) store(r[from - 1].lane, Wide{before[0], before[1], before[2], 0});
 	for (std::size_t i = from; i < to; ++i, u += 3) {
 		Wide n{0, 0, 0, 0}, s = n, t = n, n1 = n, s1 = n, t1 = n;
 		// Lanes 0 to 2 of the first two rows, 1 to 3 of the third: so nothing is read beyond the block. The lane left over is not used.

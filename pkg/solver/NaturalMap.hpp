@@ -50,10 +50,19 @@ template <class T> struct Split {
 	T t;
 };
 
-/// Euclidean projection on the Coulomb cone |t| <= mu n.
-template <class T> Split<T> projectOnCone(const Split<T>& z, double mu)
+/// |t|; in two dimensions without a square root.
+template <class T> inline double lengthOf(const T& t)
 {
-	const double tangential = z.t.norm();
+	if constexpr (T::SizeAtCompileTime == 1)
+		return std::abs(t[0]);
+	else
+		return std::sqrt(t.squaredNorm());
+}
+
+/// Euclidean projection on the Coulomb cone |t| <= mu n.
+template <class T> inline Split<T> projectOnCone(const Split<T>& z, double mu)
+{
+	const double tangential = lengthOf(z.t);
 	if (z.n >= 0 && tangential <= mu * z.n) return z;
 	if (mu * tangential <= -z.n) return {0, T::Zero()};
 	const double n = (z.n + mu * tangential) / (1 + mu * mu);
@@ -66,9 +75,9 @@ inline double roundOffOf(double speeds) { return 16 * std::numeric_limits<double
 /// F of the class comment.
 /// @param r    impulse [N s];  @param u  relative velocity, gap velocity added to the normal component [m/s]
 /// @param Wnn  normal mobility > 0 [1/kg];  @param speeds  sum of the speeds that enter u, for the round-off threshold [m/s]
-template <class T> Split<T> naturalMap(const Split<T>& r, const Split<T>& u, double mu, double Wnn, double speeds)
+template <class T> inline Split<T> naturalMap(const Split<T>& r, const Split<T>& u, double mu, double Wnn, double speeds)
 {
-	const Split<T> z{r.n - (u.n + mu * u.t.norm()) / Wnn, r.t - u.t / Wnn};
+	const Split<T> z{r.n - (u.n + mu * lengthOf(u.t)) / Wnn, r.t - u.t / Wnn};
 	const Split<T> p = projectOnCone(z, mu);
 	const Split<T> F{r.n - p.n, r.t - p.t};
 	if (Wnn * std::sqrt(F.n * F.n + F.t.squaredNorm()) <= roundOffOf(speeds)) return {0, T::Zero()};

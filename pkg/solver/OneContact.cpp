@@ -44,7 +44,7 @@ struct OneContact::Sliding {
 	double step() const { return excess() * limit * length * length / (dLength2 * limit * limit + dLimit * length * length * length); }
 };
 
-OneContact::Sliding OneContact::slideAt(double k, const Pushed& p) const
+inline OneContact::Sliding OneContact::slideAt(double k, const Pushed& p) const
 {
 	const double inverse = 1 / ((largeEigen + k) * (smallEigen + k)), iL = inverse * (smallEigen + k), iS = inverse * (largeEigen + k);
 	const double rL = p.large * iL, rS = p.small * iS;
@@ -59,7 +59,7 @@ OneContact::Sliding OneContact::slideAt(double k, const Pushed& p) const
 /// Root k > 0 of f(k) = |r_t(k)| - mu r_n(k), f(0) > 0 > f(infinity). Newton on 1/(mu r_n) - 1/|r_t|, which is nearly linear in k (as in
 /// trust-region methods), first from the guess, if any, without a bracket, then kept inside one; bisection of the logarithm when it leaves the
 /// bracket or shrinks it too slowly.
-double OneContact::slidingRate(const Pushed& p, double guess) const
+inline double OneContact::slidingRate(const Pushed& p, double guess) const
 {
 	const double limit = -p.ratio * p.normal; // mu r_n for k -> infinity, > 0
 	// A direction that cannot move and yet should: below the round-off of A the rate means nothing, see solve().

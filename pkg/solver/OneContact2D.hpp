@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 
 namespace contactdynamics {
 
@@ -26,10 +27,11 @@ public:
 	{
 		const double bn = b[0], bt = b[1];
 		if (!(bn < 0) || !(Wnn > 0)) return {0, 0};
+		if (mu == 0) return {-bn / Wnn, 0};
 		const double determinant = Wnn * Wtt - Wnt * Wnt;
-		if (determinant > 0) {
+		if (determinant > 8 * std::numeric_limits<double>::epsilon() * Wnn * Wtt) { // below that it is round-off
 			const double rn = (Wnt * bt - Wtt * bn) / determinant, rt = (Wnt * bn - Wnn * bt) / determinant;
-			if (std::abs(rt) <= mu * rn) return {rn, rt};
+			if (rn >= 0 && std::abs(rt) <= mu * rn) return {rn, rt};
 		}
 		// Sliding against the friction: r_T = side mu r_N with u_N = 0, and side u_T <= 0. The side of J = b_T - W_TN b_N / W_NN is tried first.
 		const double first = Wnn * bt - Wnt * bn <= 0 ? 1 : -1;

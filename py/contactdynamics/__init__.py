@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Contact Dynamics for YADE: rigid grains under the Signorini condition and Coulomb's law, after Jean (1999).
 
-``from contactdynamics import *`` in a script of YADE gives the classes and :func:`engines`.
+``from contactdynamics import *`` in a script of YADE gives the classes and :func:`engines`. The modules of the package (``contactdynamics.report``,
+``contactdynamics.fclib``, ...) are imported when they are first used.
 """
+
+import importlib
+from types import ModuleType
 
 from . import _loading
 
@@ -12,3 +16,14 @@ globals().update(_classes)
 from ._presets import engines  # noqa: E402 - needs the classes
 
 __all__ = [*_classes, "engines"]
+
+
+def __getattr__(name: str) -> ModuleType:
+    # Not imported above: numpy, h5py and matplotlib take longer than everything else.
+    if not name.startswith("_"):
+        try:
+            return importlib.import_module(f".{name}", __name__)
+        except ModuleNotFoundError as error:
+            if error.name != f"{__name__}.{name}":
+                raise
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -17,11 +17,11 @@ def engines(
     timeStepper: bool | Any = False,
     **more: Any,
 ) -> list:
-    """Return the complete ``O.engines`` of a Contact Dynamics scene of Sphere, Box, Wall, Facet and Clump bodies.
+    """Return the complete ``O.engines`` of a Contact Dynamics scene of Sphere, Polyhedra, Box, Wall, Facet and Clump bodies.
 
     The list is ForceResetter, InsertionSortCollider, InteractionLoop, ContactDynamicsEngine (label ``cd``) and
-    NewtonIntegrator without damping (label ``newton``). Engines of your own that add forces or set velocities go
-    between the InteractionLoop and ``cd``, recorders and controllers behind the NewtonIntegrator::
+    NewtonIntegrator without damping (label ``newton``). Engines of your own that set velocities go right behind ForceResetter, those
+    that add forces between it and ``cd``, recorders and controllers behind the NewtonIntegrator::
 
         O.engines = contactdynamics.engines(gravity=(0, 0, -9.81)) + [PyRunner(command="report()", iterPeriod=100)]
 
@@ -45,6 +45,7 @@ def engines(
         wrapper.InsertionSortCollider(
             [
                 wrapper.Bo1_Sphere_Aabb_Proximity(),
+                wrapper.Bo1_Polyhedra_Aabb_Proximity(),
                 wrapper.Bo1_Box_Aabb_Proximity(),
                 wrapper.Bo1_Facet_Aabb_Proximity(),
                 wrapper.Bo1_Wall_Aabb_Proximity(),
@@ -59,6 +60,14 @@ def engines(
                 wrapper.Ig2_Box_Sphere_ScGeom_Proximity(),
                 wrapper.Ig2_Facet_Sphere_ScGeom_Proximity(),
                 wrapper.Ig2_Wall_Sphere_ScGeom_Proximity(),
+                wrapper.Ig2_Sphere_Polyhedra_ScGeom_Proximity(),
+                wrapper.Ig2_Polyhedra_Polyhedra_ManifoldGeom(),
+                wrapper.Ig2_Box_Polyhedra_ManifoldGeom(),
+                wrapper.Ig2_Facet_Polyhedra_ManifoldGeom(),
+                wrapper.Ig2_Wall_Polyhedra_ManifoldGeom(),
+                wrapper.Ig2_Box_Box_ManifoldGeom(),
+                wrapper.Ig2_Facet_Box_ManifoldGeom(),
+                wrapper.Ig2_Wall_Box_ManifoldGeom(),
             ],
             [
                 wrapper.Ip2_FrictMat_FrictMat_ContactDynamicsPhys(),

@@ -108,6 +108,19 @@ def supportForce(ids: Iterable[int]) -> np.ndarray:
     return np.sum([np.array(O.forces.f(i, sync=True)) for i in ids], axis=0)
 
 
+def supportTorque(ids: Iterable[int], point: Iterable[float] = (0, 0, 0)) -> np.ndarray:
+    """Moment of the forces on the given bodies about a point in the last step [N m], global axes; for a drum: what the grains turn it with.
+
+    For bodies that have not moved since the forces were found (a driven body has, by one step: an error of that order). ``TorqueRecorder`` of YADE 2023.02a takes
+    the arms of bodies off its axis with the wrong sign.
+    """
+    moments = [
+        np.array(O.forces.t(i, sync=True)) + np.cross(np.array(O.bodies[i].state.pos) - np.array(list(point)), np.array(O.forces.f(i, sync=True)))
+        for i in ids
+    ]
+    return np.sum(moments, axis=0)
+
+
 def table(rows: Iterable[tuple[str, object]]) -> str:
     """Lines ``name   value`` with aligned columns; numbers to four significant digits, integers in full."""
 

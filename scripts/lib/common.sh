@@ -5,7 +5,7 @@
 ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
 
 # One list of Debian packages for every script, so that a machine that ran one of them can run all of them.
-BUILD_PACKAGES=(cmake g++ make libboost-python-dev libboost-serialization-dev libeigen3-dev python3-dev libgtest-dev libfclib-dev)
+BUILD_PACKAGES=(cmake g++ make libboost-python-dev libboost-serialization-dev libeigen3-dev python3-dev libgtest-dev libfclib-dev libcgal-dev)
 RUN_PACKAGES=(yade python3-h5py python3-numpy python3-matplotlib python3-pil python3-tqdm)
 TEST_PACKAGES=(python3-pytest)
 DOC_PACKAGES=(python3-sphinx)

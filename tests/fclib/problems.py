@@ -88,6 +88,22 @@ def siconos_error(problem: Local, r: np.ndarray) -> float:
     return np.sqrt(squares) / (scale if scale > 2.2e-16 else 1)
 
 
+def natural_map_residual(problem: Local, r: np.ndarray) -> float:
+    """sqrt(sum F^T W_cc F / sum r^T W_cc r) with F = r - P_K(r - (u + mu |u_T| n) / W_nn); W_cc the symmetric part of a diagonal block."""
+    d = problem.dimension
+    u = problem.W @ r + problem.q
+    above = below = 0.0
+    for i, mu in enumerate(problem.mu):
+        of = slice(d * i, d * (i + 1))
+        W = (problem.W[of, of] + problem.W[of, of].T) / 2
+        push = u[of].copy()
+        push[0] += mu * np.linalg.norm(u[of][1:])
+        F = r[of] - nearest_in_cone(r[of] - push / W[0, 0], mu)
+        above += F @ W @ F
+        below += r[of] @ W @ r[of]
+    return np.sqrt(above / below)
+
+
 def nearest_in_cone(z: np.ndarray, mu: float) -> np.ndarray:
     """Nearest point of |t| <= mu n: z itself, the tip, or a point on the generator (1, mu t / |t|) of the surface."""
     tangential = np.linalg.norm(z[1:])

@@ -5,10 +5,11 @@
 #include <core/Clump.hpp>
 #include <core/Dispatching.hpp>
 #include <core/TimeStepper.hpp>
+#include <pkg/common/Collider.hpp>
 #include <pkg/common/ElastMat.hpp>
-#include <pkg/common/InsertionSortCollider.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/polyhedra/Polyhedra.hpp>
 
 #include <cstring>
 #include <iostream>
@@ -92,6 +93,7 @@ int main()
 	Protected<IGeom>::expectIndexPlaces("IGeom", 12);
 	Protected<ScGeom>::expectIndexPlaces("ScGeom", 12);
 	Protected<Shape>::expectIndexPlaces("Shape", 12);
+	Protected<Polyhedra>::expectIndexPlaces("Polyhedra", 12);
 	Protected<Clump>::expectIndexPlaces("Clump", 12);
 	Protected<Bound>::expectIndexPlaces("Bound", 12);
 	Protected<Aabb>::expectIndexPlaces("Aabb", 12);

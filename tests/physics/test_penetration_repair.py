@@ -178,6 +178,16 @@ def test_soft_packing_with_wedged_grains_is_let_down() -> None:
     assert all(b.state.vel.norm() == 0 for b in O.bodies if b.dynamic)
 
 
+@pytest.mark.parametrize("given", [dict(dt=0), dict(dt=math.nan), dict(dt=1e-3, settle=-1)])
+def test_bad_arguments_of_take_over(given: dict) -> None:
+    grain((0, 0, 0))
+    equip(1e-3)
+    before = O.engines
+    with pytest.raises(ValueError, match="settle" if "settle" in given else "dt"):
+        takeOver(contactdynamics.engines(), **given)
+    assert [type(e) for e in O.engines] == [type(e) for e in before], "a refused call changes nothing"
+
+
 def test_packing_with_overlaps_starts_without_an_explosion() -> None:
     """A block of columns with overlaps of 1 % everywhere, no forces to start from: the kinetic energy stays far below what gravity allows.
 

@@ -85,7 +85,7 @@ TEST(CrushedContacts, OneAmongManyOthers)
 // The lid that only follows, and columns whose impulses are hundreds of times what stops one mass: hard, but solvable.
 TEST(CrushedContacts, NoFalseAlarm)
 {
-	for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6})
+	for (const double tolerance : {1e-1, 1e-2, 1e-4})
 		for (const int masses : {1, 10, 60, 200})
 			for (const bool finish : {false, true})
 				for (const Measure measure : {Measure::naturalMap, Measure::siconos}) {

@@ -13,7 +13,7 @@ import re
 import traceback
 from typing import Callable
 
-from yade import Ig2_Sphere_Sphere_L3Geom, O, Vector3
+from yade import Ig2_Sphere_Sphere_L3Geom, Matrix3, O, Vector3
 
 from contactdynamics import *  # noqa: F403
 from scenes import cd, contact, engine, equip, floor, grain, material, state, steps, vec
@@ -145,6 +145,36 @@ def force_nan() -> None:
     refused(r"#?\b1\b", "force", "nan")
     O.forces.setPermF(BALL, Vector3(0, 0, 0))
     goes_on()
+
+
+def radius_nan() -> None:
+    _radius(NAN, "nan")
+
+
+def radius_negative() -> None:
+    _radius(-1.0, "-1")
+
+
+def _radius(value: float, shown: str) -> None:
+    """From the first step on: the collider never sees such a sphere, so that no contact could complain."""
+    scene()
+    O.bodies[BALL].shape.radius = value
+    refused(r"#?\b1\b", "radius", shown)
+    O.bodies[BALL].shape.radius = 1
+    goes_on()
+
+
+def velocity_gradient_nan() -> None:
+    O.periodic = True
+    O.cell.setBox(100, 100, 100)
+    material()
+    grain((1, 2, 3))
+    equip(H, gravity=(0, 0, 0))
+    O.cell.velGrad = Matrix3(0, NAN, 0, 0, 0, 0, 0, 0, 0)
+    refused("O.cell.velGrad", "nan")
+    O.cell.velGrad = Matrix3(0, 0, 0, 0, 0, 0, 0, 0, 0)
+    O.step()
+    assert (state(0).pos - Vector3(1, 2, 3)).norm() == 0
 
 
 def values_of_fixed_bodies_do_not_matter() -> None:

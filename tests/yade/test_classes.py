@@ -19,15 +19,24 @@ FUNCTORS = [
     "Bo1_Box_Aabb_Proximity",
     "Bo1_Facet_Aabb_Proximity",
     "Bo1_Wall_Aabb_Proximity",
+    "Bo1_Polyhedra_Aabb_Proximity",
     "Ig2_Sphere_Sphere_ScGeom_Proximity",
     "Ig2_Box_Sphere_ScGeom_Proximity",
     "Ig2_Facet_Sphere_ScGeom_Proximity",
     "Ig2_Wall_Sphere_ScGeom_Proximity",
+    "Ig2_Sphere_Polyhedra_ScGeom_Proximity",
+    "Ig2_Polyhedra_Polyhedra_ManifoldGeom",
+    "Ig2_Box_Polyhedra_ManifoldGeom",
+    "Ig2_Facet_Polyhedra_ManifoldGeom",
+    "Ig2_Wall_Polyhedra_ManifoldGeom",
+    "Ig2_Box_Box_ManifoldGeom",
+    "Ig2_Facet_Box_ManifoldGeom",
+    "Ig2_Wall_Box_ManifoldGeom",
     "Ip2_FrictMat_FrictMat_ContactDynamicsPhys",
     "Ip2_ContactDynamicsMat_ContactDynamicsMat_ContactDynamicsPhys",
     "Law2_ScGeom_ContactDynamicsPhys_SignoriniCoulomb",
 ]
-CLASSES = FUNCTORS + ["ContactDynamicsEngine", "ContactDynamicsMat", "ContactDynamicsPhys"]
+CLASSES = FUNCTORS + ["ContactDynamicsEngine", "ContactDynamicsMat", "ContactDynamicsPhys", "ContactDynamicsManifoldPhys", "ManifoldGeom"]
 DEFAULTS = {
     "tolerance": 1e-4,
     "maxIterations": 1000,
@@ -249,7 +258,7 @@ def test_time_is_booked_for_each_part(capsys) -> None:
     yade.timing.reset()
     steps(20)
     booked = {label: (time, count) for label, time, count in cd().timingDeltas.data}
-    assert list(booked) == ["collect", "solve", "apply"]
+    assert list(booked) == ["collect", "solve", "apply", "repair"]
     assert all(count == 20 and time > 0 for time, count in booked.values())
     yade.timing.stats()
     shown = capsys.readouterr().out

@@ -10,6 +10,7 @@ from yade import (
     ForceEngine,
     GlobalStiffnessTimeStepper,
     GravityEngine,
+    Law2_ScGeom_FrictPhys_CundallStrack,
     NewtonIntegrator,
     O,
     PyRunner,
@@ -150,6 +151,35 @@ def test_two_contact_dynamics_engines() -> None:
     O.engines = right[:-1] + [ContactDynamicsEngine(), right[-1]]
     refused("ContactDynamicsEngine")
     O.engines = right
+    works()
+
+
+def test_the_same_engine_twice() -> None:
+    """The second solve would find nothing left to do and overwrite the impulses with zero."""
+    right = scene()
+    O.engines = right[:-1] + [engine("ContactDynamicsEngine"), right[-1]]
+    refused("twice")
+    O.engines = right
+    works()
+
+
+def test_loop_with_soft_laws_only() -> None:
+    """The line of the soft law was not changed: contacts would be dropped before they close."""
+    scene()
+    laws = engine("InteractionLoop").lawDispatcher
+    right = laws.functors
+    laws.functors = [Law2_ScGeom_FrictPhys_CundallStrack()]
+    refused("Law2_ScGeom_ContactDynamicsPhys_SignoriniCoulomb")
+    laws.functors = right
+    works()
+
+
+@pytest.mark.parametrize("number", [float("nan"), float("inf")])
+def test_gravity_that_is_not_finite(number: float) -> None:
+    scene()
+    engine("NewtonIntegrator").gravity = (0, 0, number)
+    refused("NewtonIntegrator.gravity", str(number))
+    engine("NewtonIntegrator").gravity = (0, 0, -9.81)
     works()
 
 

@@ -94,6 +94,23 @@ def test_rules_of_pairs(name: str) -> None:
         assert getattr(contact(0, 1).phys, attribute) == pytest.approx(made(0.77 if matched else rule))
 
 
+@pytest.mark.parametrize("name", PAIR_RULES)
+def test_bad_values_of_a_rule_name_the_contact(name: str) -> None:
+    """Good materials, but a MatchMaker that gives the pair what none of them may have; a good one mends it."""
+    mortar = {"kn": 1e6} if name == "normalDamping" else {}
+    made = law(**{name: 0.2, **mortar})
+    floor(material=made)
+    grain((0, 0, 1), material=made)
+    equip(1e-3)
+    functor = engine("InteractionLoop").physDispatcher.functors[1]
+    setattr(functor, RULE.get(name, name), MatchMaker(matches=((made.id, made.id, -0.5),)))
+    with pytest.raises(RuntimeError, match="#0\\+#1"):
+        O.step()
+    setattr(functor, RULE.get(name, name), MatchMaker(matches=((made.id, made.id, 0.3),)))
+    steps(2)
+    assert contact(0, 1) is not None
+
+
 @pytest.mark.parametrize("kind", sorted(laws_cases.LAWS))
 def test_same_bits_with_two_threads_and_across_a_file(kind: str, tmp_path) -> None:
     isolated("yade", "laws_cases", "straight", kind, tmp_path / "one")

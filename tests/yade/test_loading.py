@@ -118,6 +118,21 @@ def test_import_twice_gives_the_same_classes(monkeypatch) -> None:
     assert again._classes == first
 
 
+def test_modules_of_the_package_come_when_first_used(tmp_path) -> None:
+    """`contactdynamics.fclib.write(...)` after `import contactdynamics`, as the README has it."""
+    run_script(
+        tmp_path,
+        """
+import sys
+import contactdynamics
+assert "contactdynamics.report" not in sys.modules
+for name in ("fclib", "forcenetwork", "plane", "report", "takeover"):
+    assert getattr(contactdynamics, name) is sys.modules["contactdynamics." + name]
+assert not hasattr(contactdynamics, "noSuchModule")
+""",
+    )
+
+
 def test_interactive_session(tmp_path) -> None:
     typed = "from contactdynamics import *\nprint('tolerance', ContactDynamicsEngine().tolerance)\nexit()\n"
     done = run(["yade", "-n"], cwd=tmp_path, input=typed)

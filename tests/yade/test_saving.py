@@ -37,6 +37,17 @@ def test_same_bits_of_many_contacts_with_any_number_of_threads(tmp_path) -> None
     assert (tmp_path / "3").read_text() == expected
 
 
+def test_same_bits_of_a_turning_mesh(tmp_path) -> None:
+    """Seams of facets that an engine drives and bodies that vanish in mid-run: three threads, and a file between."""
+    isolated("yade", "saving_mesh_cases", "to_the_end", tmp_path / "one")
+    expected = (tmp_path / "one").read_text()
+    isolated("yade", "saving_mesh_cases", "to_the_end", tmp_path / "three", threads=3)
+    assert (tmp_path / "three").read_text() == expected
+    isolated("yade", "saving_mesh_cases", "first", tmp_path / "half.xml")
+    isolated("yade", "saving_mesh_cases", "to_the_end", tmp_path / "second", tmp_path / "half.xml", threads=2)
+    assert (tmp_path / "second").read_text() == expected
+
+
 @pytest.mark.parametrize("ending", [".xml", ".xml.bz2", ".yade", ".yade.gz"])
 def test_same_bits_across_a_file_and_a_new_process(one_run, ending: str) -> None:
     folder, expected = one_run

@@ -8,27 +8,34 @@ import math
 import pytest
 from yade import (
     CohFrictMat,
+    FrictMat,
     Ig2_Sphere_Sphere_ScGeom6D,
     Ip2_CohFrictMat_CohFrictMat_CohFrictPhys,
+    Ip2_FrictMat_FrictMat_FrictPhys,
     Ip2_ViscElMat_ViscElMat_ViscElPhys,
     Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
+    Law2_ScGeom_FrictPhys_CundallStrack,
     Law2_ScGeom_ViscElPhys_Basic,
     O,
     ViscElMat,
 )
 
 from prediction import step_and_compare
-from scenes import active, cd, contacts, engine, equip, floor, grain, material, state, steps, until_rest, vec
+from scenes import active, cd, contact, contacts, engine, equip, floor, grain, law, material, state, steps, until_rest, vec
 
 H = 1e-4
 STIFF, VISCOUS = 1e8, 1e6
 
 
-def soft_material() -> ViscElMat:
+def viscoelastic() -> ViscElMat:
     """Its contacts with itself have half of each constant, because YADE puts the two bodies in series."""
     kn, cn = 2 * STIFF, 2 * VISCOUS
-    number = O.materials.append(ViscElMat(kn=kn, cn=cn, ks=kn, cs=cn, frictionAngle=math.atan(0.5), density=2600))
-    return O.materials[number]
+    return ViscElMat(kn=kn, cn=cn, ks=kn, cs=cn, frictionAngle=math.atan(0.5), density=2600)
+
+
+def soft_material() -> ViscElMat:
+    """A new soft material of the scene."""
+    return O.materials[O.materials.append(viscoelastic())]
 
 
 def add_soft_law() -> None:
@@ -74,25 +81,6 @@ def test_prediction_includes_soft_forces() -> None:
         step_and_compare(forces=2 * STIFF / state(1).mass * 1e-2)
 
 
-def test_soft_pair_is_the_same_with_and_without_the_engine() -> None:
-    """Two soft balls that collide know nothing of the engine: bit by bit the same motion."""
-    tracks = []
-    for use in (True, False):
-        O.reset()
-        soft = soft_material()
-        grain((0, 0, 0), velocity=(3, 0, 0), material=soft)
-        grain((2.005, 0.5, 0), velocity=(-2, 0, 1), material=soft)
-        equip(H, gravity=(0, 0, 0))
-        add_soft_law()
-        if not use:
-            O.engines = [e for e in O.engines if type(e).__name__ != "ContactDynamicsEngine"]
-        track = []
-        steps(200, lambda: track.append([tuple(state(n).vel) + tuple(state(n).angVel) for n in (0, 1)]))
-        tracks.append(track)
-        assert abs(state(0).vel[0] - 3) > 0.1, "the balls did not meet"
-    assert tracks[0] == tracks[1]
-
-
 def test_layers_of_soft_and_rigid_grains() -> None:
     """Five rigid balls fall on a bed of soft ones on a rigid floor; weights add up on the floor.
 
@@ -127,15 +115,86 @@ def test_cohesive_soft_pair_in_a_scene_of_rigid_grains() -> None:
     floor(material=rigid)
     ball = grain((5, 0, 1), material=rigid)
     equip(H)
-    loop = engine("InteractionLoop")
-    # The collision functor with rotations serves every pair of spheres: our law takes its geometry as the base class.
-    others = [f for f in loop.geomDispatcher.functors if "Sphere_Sphere" not in type(f).__name__]
-    loop.geomDispatcher.functors = others + [Ig2_Sphere_Sphere_ScGeom6D()]
-    glued = Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True, setCohesionOnNewContacts=True)
-    loop.physDispatcher.functors = loop.physDispatcher.functors + [glued]
-    loop.lawDispatcher.functors = loop.lawDispatcher.functors + [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]
+    add_cohesive_law()
     steps(200)
     pull = O.interactions[hook, hung].phys.normalForce.norm()
     assert pull > 0 and state(hung).pos[2] > 17.9
     assert vec(O.forces.f(ball))[2] == pytest.approx(state(ball).mass * 9.81, rel=1e-6)
     assert [type(i.phys).__name__ for i in contacts()] == ["ContactDynamicsPhys"]
+
+
+def add_cundall_strack() -> None:
+    """Plain FrictMats become soft, and pairs of ContactDynamicsMats rigid."""
+    loop = engine("InteractionLoop")
+    rigid = [f for f in loop.physDispatcher.functors if "ContactDynamicsMat" in type(f).__name__]
+    loop.physDispatcher.functors = [Ip2_FrictMat_FrictMat_FrictPhys()] + rigid
+    loop.lawDispatcher.functors = loop.lawDispatcher.functors + [Law2_ScGeom_FrictPhys_CundallStrack()]
+
+
+def add_cohesive_law() -> None:
+    """The collision functor with rotations serves every pair of spheres: our law takes its geometry as the base class."""
+    loop = engine("InteractionLoop")
+    others = [f for f in loop.geomDispatcher.functors if "Sphere_Sphere" not in type(f).__name__]
+    loop.geomDispatcher.functors = others + [Ig2_Sphere_Sphere_ScGeom6D()]
+    glued = Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True, setCohesionOnNewContacts=True)
+    loop.physDispatcher.functors = loop.physDispatcher.functors + [glued]
+    loop.lawDispatcher.functors = loop.lawDispatcher.functors + [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]
+
+
+def test_cundall_strack_by_material_pair() -> None:
+    """A rigid ball on a rigid ball on a soft one on a fixed soft one: the classes of the two materials decide, the mixed pair is soft.
+
+    All radii are 1 m and all moduli 1e7 Pa, so YADE's stiffness is 1e7 N/m; the balls start in equilibrium and stay there.
+    """
+    stiffness = 1e7
+    soft = O.materials[O.materials.append(FrictMat(young=stiffness, poisson=0.3, frictionAngle=0.5, density=2600))]
+    rigid = law(young=stiffness)
+    weight = 2600 * 4 / 3 * math.pi * 9.81
+    first, second = 2 - 3 * weight / stiffness, 2 - 2 * weight / stiffness
+    base, middle = grain((0, 0, 0), material=soft, fixed=True), grain((0, 0, first), material=soft)
+    lower, upper = grain((0, 0, first + second), material=rigid), grain((0, 0, first + second + 2), material=rigid)
+    equip(H, tolerance=1e-10)
+    add_cundall_strack()
+    steps(500)
+    found = [O.interactions[pair].phys for pair in ((base, middle), (middle, lower), (lower, upper))]
+    assert [type(phys).__name__ for phys in found] == ["FrictPhys", "FrictPhys", "ContactDynamicsPhys"]
+    # The springs swing by the rounding of their positions, 1e-16 m, and the residual of the rigid pair, 1e-10 of its force.
+    assert [phys.normalForce.norm() for phys in found] == pytest.approx([3 * weight, 2 * weight, weight], rel=1e-8)
+    assert (state(upper).pos - state(lower).pos).norm() == pytest.approx(2, abs=1e-9)
+
+
+SOFT_LAWS = {
+    "viscoelastic": (viscoelastic, add_soft_law),
+    "CundallStrack": (lambda: FrictMat(young=1e7, poisson=0.3, frictionAngle=0.5, density=2600), add_cundall_strack),
+    "cohesive": (
+        lambda: CohFrictMat(young=1e7, frictionAngle=0.5, density=2600, isCohesive=True, normalCohesion=1e5, shearCohesion=1e5),
+        add_cohesive_law,
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", SOFT_LAWS)
+def test_soft_pairs_keep_their_bits_beside_rigid_ones(kind: str) -> None:
+    """Two soft balls that collide move the same to the bit with and without the engine, while rigid ones collide beside them."""
+    tracks = []
+    make, add = SOFT_LAWS[kind]
+    for use in (True, False):
+        O.reset()
+        soft = O.materials[O.materials.append(make())]
+        grain((0, 0, 0), velocity=(3, 0, 0), material=soft)
+        grain((2.005, 0.5, 0), velocity=(-2, 0, 1), material=soft)
+        if use:
+            rigid = law()
+            grain((0, 9, 0), velocity=(3, 0, 0), material=rigid)
+            grain((2.005, 9.5, 0), velocity=(-2, 0, 1), material=rigid)
+        equip(H, gravity=(0, 0, 0))
+        add()
+        if not use:
+            O.engines = [e for e in O.engines if type(e).__name__ != "ContactDynamicsEngine"]
+        track = []
+        steps(400, lambda: track.append([tuple(state(n).vel) + tuple(state(n).angVel) for n in (0, 1)]))
+        tracks.append(track)
+        assert abs(state(0).vel[0] - 3) > 0.1, "the balls did not meet"
+        if use:
+            assert contact(2, 3) is not None and abs(state(2).vel[0] - 3) > 0.1, "nor did the rigid ones"
+    assert tracks[0] == tracks[1]

@@ -3,14 +3,11 @@
 // libraries. Compiled with every build and linked nowhere.
 
 #include <abi/LayoutChecks.hpp>
-#include <pkg/common/Bo1_Aabb.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Collider.hpp>
 #include <pkg/common/ElastMat.hpp>
 #include <pkg/common/Facet.hpp>
 #include <pkg/common/FieldApplier.hpp>
-#include <pkg/common/ForceResetter.hpp>
-#include <pkg/common/InsertionSortCollider.hpp>
 #include <pkg/common/NormShearPhys.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
@@ -18,11 +15,9 @@
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/polyhedra/Polyhedra.hpp>
 
 namespace yade {
-
-STOCK_CLASS(Bo1_Sphere_Aabb, 96, 96)
-STOCK_MEMBER(Bo1_Sphere_Aabb, aabbEnlargeFactor, 88)
 
 STOCK_CLASS(Box, 120, 120)
 STOCK_MEMBER(Box, extents, 96)
@@ -48,22 +43,6 @@ STOCK_MEMBER(Facet, normal, 296)
 STOCK_MEMBER(Facet, area, 320)
 
 STOCK_CLASS(FieldApplier, 112, 108)
-
-STOCK_CLASS(ForceResetter, 104, 104)
-
-STOCK_CLASS(InsertionSortCollider, 440, 440)
-STOCK_MEMBER(InsertionSortCollider, strideActive, 124)
-STOCK_MEMBER(InsertionSortCollider, sortAxis, 352)
-STOCK_MEMBER(InsertionSortCollider, allowBiggerThanPeriod, 356)
-STOCK_MEMBER(InsertionSortCollider, targetInterv, 360)
-STOCK_MEMBER(InsertionSortCollider, overlapTolerance, 368)
-STOCK_MEMBER(InsertionSortCollider, updatingDispFactor, 376)
-STOCK_MEMBER(InsertionSortCollider, verletDist, 384)
-STOCK_MEMBER(InsertionSortCollider, minSweepDistFactor, 392)
-STOCK_MEMBER(InsertionSortCollider, fastestBodyMaxDist, 400)
-STOCK_MEMBER(InsertionSortCollider, numReinit, 408)
-STOCK_MEMBER(InsertionSortCollider, numAction, 412)
-STOCK_MEMBER(InsertionSortCollider, newton, 424)
 
 STOCK_CLASS(NormPhys, 64, 64)
 STOCK_MEMBER(NormPhys, kn, 32)
@@ -100,6 +79,11 @@ STOCK_MEMBER(NewtonIntegrator, prevCellSize, 376)
 STOCK_MEMBER(NewtonIntegrator, warnNoForceReset, 400)
 STOCK_MEMBER(NewtonIntegrator, dampGravity, 409)
 STOCK_MEMBER(NewtonIntegrator, mask, 424)
+
+STOCK_CLASS(Polyhedra, 384, 384)
+STOCK_MEMBER(Polyhedra, v, 328)
+STOCK_MEMBER(Polyhedra, seed, 352)
+STOCK_MEMBER(Polyhedra, size, 360)
 
 STOCK_CLASS(ScGeom, 192, 192)
 STOCK_MEMBER(ScGeom, radius1, 144)

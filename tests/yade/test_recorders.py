@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""YADE's recorders and averages read the contact forces: each against sums over the contacts that are made here."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from yade import ForceRecorder, O, TorqueRecorder, Vector3, VTKRecorder, utils
+
+from contactdynamics import report, stress
+from scenes import G, ball_mass, box, dumbbell, equip, floor, grain, material, state, steps, vec
+from test_detection import facet
+
+H = 1e-3
+
+
+def heap() -> None:
+    """Balls, a clump, a box, facets and a wall, pressed together and sliding: forces in all directions."""
+    material(friction=0.4)
+    box((0, 0, -1), (6, 6, 1))
+    facet(((-6, -6, 6), (-6, 6, 6), (-2.9, 0, -0.5)))
+    facet(((-6, -6, 6), (-2.9, 0, -0.5), (-2.8, -6, -0.5)))
+    for place, axis in ((2.6, 0), (-4.5, 0), (-2.6, 1), (2.6, 1)):
+        O.bodies.append(utils.wall(place, axis, material=O.materials[0]))
+    generator = np.random.default_rng(2)
+    for k in range(12):
+        place = 1.9 * np.array([k % 2 - 0.7, k // 2 % 2 - 0.5, 0.7 + k // 4])
+        grain(place + generator.uniform(-0.1, 0.1, 3), radius=generator.uniform(0.7, 0.9), velocity=generator.uniform(-1, 1, 3))
+    dumbbell([(0, 0, 6.4), (1.3, 0.2, 6.9)], radius=0.8)
+    equip(5e-3, tolerance=1e-10, maxIterations=20000)
+    steps(300)
+    assert len([i for i in O.interactions if i.phys.normalForce.norm() > 0]) > 15
+
+
+def pushes():
+    """(id1, id2, contact point, force on body 2) of each real interaction, from the attributes of YADE."""
+    return [(i.id1, i.id2, vec(i.geom.contactPoint), vec(i.phys.normalForce) + vec(i.phys.shearForce)) for i in O.interactions if i.isReal]
+
+
+def total(ids) -> np.ndarray:
+    return sum((f * ((two in ids) - (one in ids)) for one, two, _, f in pushes()), np.zeros(3))
+
+
+def close(one, other, scale: float) -> bool:
+    """Sums of some dozens of terms, read through text at most."""
+    return np.abs(np.array(one, dtype=float) - np.array(other, dtype=float)).max() <= 1e-11 * scale
+
+
+def moment(ids, point) -> np.ndarray:
+    """Moment of all contact forces on bodies about a point."""
+    return sum((np.cross(p - point, f * ((two in ids) - (one in ids))) for one, two, p, f in pushes()), np.zeros(3))
+
+
+def matrix(m) -> np.ndarray:
+    return np.array([[m[i, j] for j in range(3)] for i in range(3)])
+
+
+WEIGHT = 12 * ball_mass(0.8) * G
+
+
+def test_forces_of_the_scene() -> None:
+    """O.forces, sumForces, sumTorques, sumFacetNormalForces and forcesOnPlane."""
+    heap()
+    for b in O.bodies:
+        if b.isClump:
+            expected = total(b.shape.members)
+        else:
+            expected = total([b.id])
+        assert close(vec(O.forces.f(b.id)), expected, WEIGHT), b.id
+    ids = [1, 2]
+    assert close(utils.sumForces(ids, Vector3(1, 2, 3)), total(ids) @ [1, 2, 3], 4 * WEIGHT)
+    assert close(utils.sumTorques(ids, Vector3(0, 1, 0), Vector3(1, 2, 3)), moment(ids, [1, 2, 3])[1], 20 * WEIGHT)
+    normal_force = sum(total([k]) @ vec(O.bodies[k].state.ori * O.bodies[k].shape.normal) for k in ids)
+    assert close(utils.sumFacetNormalForces(ids), normal_force, WEIGHT)
+    # A horizontal plane at 1: contacts whose bodies have their positions on both sides of it.
+    crossing = np.zeros(3)
+    for one, two, _, f in pushes():
+        above = [O.bodies[k].state.pos[2] > 1 for k in (one, two)]
+        if above[0] != above[1]:
+            crossing += f if above[0] else -f
+    assert np.linalg.norm(crossing) > 0.1 * WEIGHT
+    assert close(utils.forcesOnPlane(Vector3(0, 0, 1), Vector3(0, 0, 1)), crossing, WEIGHT) or close(
+        utils.forcesOnPlane(Vector3(0, 0, 1), Vector3(0, 0, 1)), -crossing, WEIGHT
+    )
+
+
+def test_recorded_force_and_torque(tmp_path: Path) -> None:
+    """ForceRecorder and TorqueRecorder behind the integrator write the sums of the step, to the digits of the file."""
+    heap()
+    file, other, ids, on_axis = tmp_path / "force", tmp_path / "torque", [0, 3], 2
+    O.engines = O.engines + [
+        ForceRecorder(ids=ids, file=str(file), iterPeriod=1),
+        TorqueRecorder(ids=[on_axis], rotationAxis=(0, 0, 1), zeroPoint=state(on_axis).pos, file=str(other), iterPeriod=1),
+    ]
+    O.step()
+    line = [float(x) for x in file.read_text().splitlines()[-1].split()]
+    # Text with six digits.
+    assert np.abs(np.array(line[1:4]) - total(ids)).max() <= 1e-5 * WEIGHT
+    line = [float(x) for x in other.read_text().splitlines()[-1].split()]
+    assert abs(line[1] - moment([on_axis], vec(state(on_axis).pos))[2]) <= 2e-5 * WEIGHT
+    # YADE's recorder reverses the arms of bodies that are not on its axis; ours does not.
+    point = np.array([1.0, 1.0, 0.0])
+    assert close(report.supportTorque([0, 1, 2], point), moment([0, 1, 2], point), 20 * WEIGHT)
+
+
+def test_stress_of_the_packing_and_of_each_body() -> None:
+    """getStress, bodyStressTensors (Love-Weber), fabricTensor and our moment tensor."""
+    heap()
+    centre = {b.id: vec(O.bodies[b.clumpId if b.isClumpMember else b.id].state.pos) for b in O.bodies}
+    expected = sum(np.outer(f, centre[one] - centre[two]) for one, two, _, f in pushes()) / 7.0
+    assert close(matrix(utils.getStress(7.0)), expected, 10 * WEIGHT)
+
+    moments = stress.momentTensors()
+    each = utils.bodyStressTensors()
+    for b in O.bodies:
+        own = sum(np.outer(p - vec(b.state.pos), f * ((two == b.id) - (one == b.id))) for one, two, p, f in pushes())
+        if type(b.shape).__name__ == "Sphere":
+            volume = 4 / 3 * math.pi * b.shape.radius**3
+            assert close(matrix(each[b.id]) * volume, own.T, 10 * WEIGHT), b.id
+        if not b.isClumpMember and not b.isClump:
+            assert close(moments.get(b.id, np.zeros((3, 3))), own, 10 * WEIGHT), b.id
+        if b.isClump:
+            members = b.shape.members
+            own = sum(np.outer(p - vec(b.state.pos), f * ((two in members) - (one in members))) for one, two, p, f in pushes())
+            assert np.abs(own).max() > 0.1 * ball_mass(0.8) * G
+            assert close(moments[b.id], own, 10 * WEIGHT)
+            assert close(stress.ofBody(b.id, 2.0), (own + own.T) / 4, 10 * WEIGHT)
+
+    normals = np.array([vec(i.geom.normal) for i in O.interactions if i.isReal])
+    assert close(matrix(utils.fabricTensor()[0]), normals.T @ normals / len(normals), 1)
+
+
+def test_moment_tensor_of_a_loaded_ball() -> None:
+    """A ball of weight w under a load q between floor and lid: M = -(q + (q + w)) r on the axis, nothing else; stress is that over V."""
+    material(friction=0)
+    floor()
+    ball = grain((0, 0, 1))
+    lid = grain((0, 0, 3))
+    state(lid).blockedDOFs = "xyXYZ"
+    equip(H, tolerance=1e-12, maxIterations=10000)
+    steps(3)
+    w = state(ball).mass * G
+    tensor = stress.momentTensors()[ball]
+    assert tensor == pytest.approx(np.diag([0, 0, -3 * w]), rel=1e-9, abs=1e-9 * w)
+    assert stress.ofBody(ball, 4 / 3 * math.pi)[2, 2] == pytest.approx(-3 * w / (4 / 3 * math.pi), rel=1e-9)
+    with pytest.raises(ValueError, match="volume"):
+        stress.ofBody(ball, 0)
+    with pytest.raises(ValueError, match="17"):
+        stress.ofBody(17, 1)
+
+
+def test_moment_tensor_is_symmetric_in_equilibrium() -> None:
+    """Balance of moments: a ball at rest on three that touch each other on a floor, held by friction."""
+    material(friction=0.6)
+    floor()
+    side = 2 / math.sqrt(3)
+    base = [grain((side * math.cos(t), side * math.sin(t), 1)) for t in (0.1, 0.1 + 2 * math.pi / 3, 0.1 + 4 * math.pi / 3)]
+    top = grain((0, 0, 1 + 2 * math.sqrt(2 / 3)))
+    equip(H, tolerance=1e-12, maxIterations=100000)
+    steps(20)
+    moments = stress.momentTensors()
+    for b in [*base, top]:
+        assert np.abs(moments[b] - moments[b].T).max() <= 1e-8 * np.abs(moments[b]).max()
+    # The three forces on the top ball have w / 3 each along the vertical, at a depth of sqrt(2/3) below its centre.
+    w = state(top).mass * G
+    assert moments[top][2, 2] == pytest.approx(-w * math.sqrt(2 / 3), rel=1e-8)
+
+
+def vtk_arrays(path: Path) -> dict[str, np.ndarray]:
+    """Data arrays of a VTK XML file in text form, by name."""
+    found = {}
+    for attributes, body in re.findall(r"<DataArray([^>]*)>([^<]*)", path.read_text()):
+        name = re.search(r'Name="([^"]*)"', attributes)[1]
+        width = re.search(r'NumberOfComponents="(\d+)"', attributes)
+        found[name] = np.array(body.split(), dtype=float).reshape(-1, int(width[1]) if width else 1)
+    return found
+
+
+def test_files_for_paraview(tmp_path: Path) -> None:
+    """VTKRecorder: forces of contacts, forces on bodies, stresses; single precision."""
+    heap()
+    recorder = VTKRecorder(
+        fileName=str(tmp_path / "x-"), recorders=["spheres", "facets", "boxes", "intr", "force", "stress", "bstresses", "id"], ascii=True, compress=False, skipFacetIntr=False
+    )
+    recorder()
+    real = [i for i in O.interactions if i.isReal and type(O.bodies[i.id1].shape).__name__ == "Sphere"]
+    arrays = vtk_arrays(next(tmp_path.glob("x-intrs.*.vtp")))
+    every = [i for i in O.interactions if i.isReal]
+    largest = max(i.phys.normalForce.norm() for i in every)
+    normal = sorted(i.phys.normalForce.dot(i.geom.normal) for i in every)
+    assert len(arrays["forceN"]) == len(every) and len(real) > 3
+    assert np.abs(np.sort(arrays["forceN"].ravel()) - normal).max() <= 1e-6 * largest
+    shear = np.array(sorted(i.phys.shearForce.norm() for i in every))
+    assert np.abs(np.sort(np.linalg.norm(arrays["absForceT"], axis=1)) - shear).max() <= 1e-6 * largest
+
+    arrays = vtk_arrays(next(tmp_path.glob("x-spheres.*.vtu")))
+    each = utils.bodyStressTensors()
+    for row, number in enumerate(arrays["id"].ravel().astype(int)):
+        assert np.abs(arrays["forceVec"][row] - total([number])).max() <= 1e-6 * WEIGHT
+        tensor = matrix(each[number])
+        # The tensor of a ball that is not in equilibrium is not symmetric; YADE's decomposition reads its lower triangle.
+        eigenvalues = np.linalg.eigvalsh(tensor, "L")
+        recorded = sorted(float(arrays[name][row, 0]) for name in ("sigI", "sigII", "sigIII"))
+        assert np.abs(np.array(recorded) - eigenvalues).max() <= 1e-5 * np.abs(eigenvalues).max() + 1e-6
+    arrays = vtk_arrays(next(tmp_path.glob("x-facets.*.vtu")))
+    recorded = sorted(map(tuple, arrays["forceVec"]))
+    assert np.abs(np.array(recorded) - np.array(sorted(map(tuple, (total([1]), total([2])))))).max() <= 1e-6 * WEIGHT
