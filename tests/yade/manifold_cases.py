@@ -51,17 +51,17 @@ def prepare(scene: str) -> None:
 
 def straight(scene: str, result: str) -> None:
     O.load(scene)
-    steps(150)
+    steps(100)
     with open(result, "w") as file:
         file.write(numbers())
 
 
 def halves(scene: str, half: str, result: str) -> None:
     O.load(scene)
-    steps(90)
+    steps(60)
     O.save(half)
     O.reset()
     O.load(half)
-    steps(60)
+    steps(40)
     with open(result, "w") as file:
         file.write(numbers())
