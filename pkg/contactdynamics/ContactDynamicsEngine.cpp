@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsEngine.hpp"
+#include "ContactDynamicsCellController.hpp"
 #include "ContactDynamicsStep.hpp"
 #include "DeferredError.hpp"
 #include "EngineOrder.hpp"
 #include "PlaneOfMotion.hpp"
+#include "OtherContacts.hpp"
 #include "Reach.hpp"
 #include <core/Scene.hpp>
 #include <core/Timing.hpp>
@@ -82,7 +84,16 @@ void ContactDynamicsEngine::collect()
 	}
 	const NewtonIntegrator& newton = requireEngineOrder(*scene, *this);
 	scene->forces.sync();
-	step->collectBodies(*scene, IntegratorPlan(*scene, newton));
+	IntegratorPlan plan(*scene, newton);
+	cellController = findCellController(*scene);
+	std::optional<contactdynamics::MeanField> cell;
+	if (cellController) {
+		otherStress = stressOfOtherContacts(*scene);
+		cell = cellController->freeMotion(*scene, otherStress);
+		plan.useVelGrad(cell->gradient);
+	}
+	step->collectBodies(*scene, plan);
+	if (cell) step->useMeanField(*cell);
 	const Real scale = impulseTimeStep > 0 ? scene->dt / impulseTimeStep : 1;
 	step->collectContacts(*scene, contactLaw, warmStart ? scale : 0);
 	step->usePlane();
@@ -113,6 +124,7 @@ void ContactDynamicsEngine::solve()
 void ContactDynamicsEngine::apply()
 {
 	step->elasticEnergy = elasticEnergy;
+	if (cellController) cellController->apply(*scene, step->problem.meanField->gradient, step->moment(), otherStress);
 	step->apply(*scene);
 	elasticEnergy = step->elasticEnergy;
 	impulseTimeStep = scene->dt;

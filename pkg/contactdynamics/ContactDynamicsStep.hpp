@@ -38,7 +38,11 @@ struct ContactDynamicsStep {
 	void collectContacts(const Scene& scene, const std::string& contactLaw, Real warmStart);
 	/// After collectContacts(): recognises a two-dimensional scene, whose disks are solved as balls.
 	void usePlane();
+	/// After collectBodies(): the periodic cell has inertia and moves with the contacts. The velocities collected hold the gradient of the field.
+	void useMeanField(const contactdynamics::MeanField& field);
 	contactdynamics::SolveReport solve(Real tolerance, int maxIterations);
+	/// After solve(): what the contacts sustain, Σ r ⊗ b over them (impulse on body 2, vector from mass centre 1 to 2) [N m s].
+	Matrix3r moment() const;
 	void apply(Scene& scene);
 	/// After apply(): displaces bodies that overlap, see PenetrationRepair; a rate of 0 only measures.
 	void repairPenetration(Scene& scene, Real rate, Real allowed);
@@ -81,6 +85,8 @@ private:
 	Twist atStart(int index) const;
 	Vector3r relativeVelocity(const contactdynamics::Contact& contact, const Twist& of1, const Twist& of2) const;
 	void shiftContacts(Real warmStart);
+	void toMeanField();
+	void fromMeanField();
 	void trackEnergy(Scene& scene);
 	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
 	static void leaveOut(Link& link);
@@ -94,6 +100,7 @@ private:
 	std::vector<BodyView> views;					  // by body id
 	std::vector<int> idOfIndex;
 	std::vector<FreeMotion> motions;				 // by solver index
+	std::vector<Vector3r> places;					 // likewise, where there is a mean field: positions [m]
 	std::vector<std::vector<Interaction*>> gathered; // by thread
 	std::vector<Link> links;						 // parallel to problem.contacts once collected
 	std::vector<Load> loads;						 // contact force and torque by body id

@@ -21,6 +21,10 @@ boost::python::dict ContactDynamicsStep::asDictionary() const
 	if (!solved)
 		throw std::runtime_error(
 				"ContactDynamicsEngine.lastProblem: no step has been solved yet (or the last one ended with an error before the solve).");
+	if (problem.meanField)
+		throw std::runtime_error(
+				"ContactDynamicsEngine.lastProblem: the cell of a ContactDynamicsCellController couples all contacts with each other; "
+				"such a problem has no sparse W.");
 	const std::size_t count = problem.contacts.size();
 	std::vector<Matrix3r> frames(count);
 	std::vector<std::vector<int>> contactsOf(problem.bodies.size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "EngineOrder.hpp"
+#include "ContactDynamicsCellController.hpp"
 #include <core/Scene.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <algorithm>
@@ -49,6 +50,19 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 	require(newton->damping == 0,
 			"NewtonIntegrator.damping is " + damping.str() + "; it must be 0: damped velocities no longer satisfy the contact law.");
 	return *newton;
+}
+
+ContactDynamicsCellController* findCellController(const Scene& scene)
+{
+	ContactDynamicsCellController* found = nullptr;
+	for (const auto& engine : scene.engines) {
+		if (!engine || engine->dead) continue;
+		auto* controller = dynamic_cast<ContactDynamicsCellController*>(engine.get());
+		require(!controller || !found,
+				"there are two live ContactDynamicsCellControllers in O.engines; one of them moves the cell. Remove one or set it dead.");
+		if (controller) found = controller;
+	}
+	return found;
 }
 
 } // namespace yade
