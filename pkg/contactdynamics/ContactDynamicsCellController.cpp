@@ -97,7 +97,7 @@ contactdynamics::MeanField ContactDynamicsCellController::freeMotion(const Scene
 		if (!(mass > 0))
 			throw std::runtime_error(
 					"ContactDynamicsCellController.inertia = 0: it cannot be taken from the bodies, because none is movable and has mass.");
-		inertiaInUse = mass * std::pow(volume / count, Real(2) / 3);
+		inertiaInUse = mass * std::pow(volume / count, Real(2) / 3) / 3;
 	}
 
 	contactdynamics::MeanField field;

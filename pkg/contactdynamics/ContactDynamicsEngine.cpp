@@ -7,6 +7,7 @@
 #include "PlaneOfMotion.hpp"
 #include "OtherContacts.hpp"
 #include "Reach.hpp"
+#include "StockControllers.hpp"
 #include <core/Scene.hpp>
 #include <core/Timing.hpp>
 #include <cmath>
@@ -83,6 +84,7 @@ void ContactDynamicsEngine::collect()
 		throw std::runtime_error(message.str());
 	}
 	const NewtonIntegrator& newton = requireEngineOrder(*scene, *this);
+	requireUsableControllers(*scene, *this);
 	scene->forces.sync();
 	IntegratorPlan plan(*scene, newton);
 	cellController = findCellController(*scene);

@@ -33,6 +33,8 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 													  "a time step from. Remove it and set O.dt.");
 		if (name == "ForceResetter") resetBefore |= !passed;
 		if (name == "InteractionLoop") loopBefore |= !passed;
+		require(name != "ContactDynamicsTriaxialController" || !passed,
+				"ContactDynamicsTriaxialController stands behind this engine in O.engines, so the contacts would not feel its walls; put it before.");
 		if (const auto* candidate = dynamic_cast<const NewtonIntegrator*>(other.get())) {
 			newton = candidate;
 			newtonBehind = passed;
@@ -60,7 +62,14 @@ ContactDynamicsCellController* findCellController(const Scene& scene)
 		auto* controller = dynamic_cast<ContactDynamicsCellController*>(engine.get());
 		require(!controller || !found,
 				"there are two live ContactDynamicsCellControllers in O.engines; one of them moves the cell. Remove one or set it dead.");
-		if (controller) found = controller;
+		if (!controller) continue;
+		found = controller;
+		for (const auto& other : scene.engines) {
+			if (!other || other->dead) continue;
+			const std::string name = other->getClassName();
+			require(name != "PeriTriaxController" && name != "Peri3dController",
+					name + " and ContactDynamicsCellController stand in O.engines; one of them moves the cell. Remove one or set it dead.");
+		}
 	}
 	return found;
 }

@@ -5,13 +5,12 @@
 
 namespace yade {
 
-using contactdynamics::Body;
 using contactdynamics::Contact;
 using contactdynamics::GrainProblem;
 
 namespace {
 /// Whether a velocity, or a mobility along the axes, stays in the plane.
-bool inPlane(const Body& body, int axis)
+bool inPlane(const contactdynamics::Body& body, int axis)
 {
 	const int b = (axis + 1) % 3, c = (axis + 2) % 3;
 	if (body.velocity[axis] != 0 || body.angularVelocity[b] != 0 || body.angularVelocity[c] != 0 || body.inverseMass[axis] != 0) return false;
@@ -36,7 +35,7 @@ template <class Item> bool allInPlane(const std::vector<Item>& items, int axis)
 int PlaneOfMotion::axisOf(const GrainProblem& problem)
 {
 	bool movable = false;
-	for (const Body& body : problem.bodies) movable = movable || body.inverseMass != contactdynamics::Vector3::Zero();
+	for (const contactdynamics::Body& body : problem.bodies) movable = movable || body.inverseMass != contactdynamics::Vector3::Zero();
 	if (!movable) return -1;
 	for (int axis = 0; axis < 3; axis++)
 		if (allInPlane(problem.bodies, axis) && allInPlane(problem.contacts, axis)) return axis;
@@ -49,7 +48,7 @@ std::string PlaneOfMotion::nameOf(int axis)
 	return axis < 0 ? "" : names[axis];
 }
 
-bool PlaneOfMotion::completeAsBall(Body& body, int axis)
+bool PlaneOfMotion::completeAsBall(contactdynamics::Body& body, int axis)
 {
 	const double mobility = body.inverseMass[(axis + 1) % 3];
 	if (mobility != body.inverseMass[(axis + 2) % 3]) return false;

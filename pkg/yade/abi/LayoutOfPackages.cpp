@@ -4,6 +4,7 @@
 
 #include <abi/LayoutChecks.hpp>
 #include <pkg/common/Bo1_Aabb.hpp>
+#include <pkg/common/BoundaryController.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Collider.hpp>
 #include <pkg/common/ElastMat.hpp>
@@ -17,12 +18,16 @@
 #include <pkg/dem/DemXDofGeom.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
+#include <pkg/dem/PeriIsoCompressor.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/dem/TriaxialStressController.hpp>
 
 namespace yade {
 
 STOCK_CLASS(Bo1_Sphere_Aabb, 96, 96)
 STOCK_MEMBER(Bo1_Sphere_Aabb, aabbEnlargeFactor, 88)
+
+STOCK_CLASS(BoundaryController, 104, 104)
 
 STOCK_CLASS(Box, 120, 120)
 STOCK_MEMBER(Box, extents, 96)
@@ -101,10 +106,20 @@ STOCK_MEMBER(NewtonIntegrator, warnNoForceReset, 400)
 STOCK_MEMBER(NewtonIntegrator, dampGravity, 409)
 STOCK_MEMBER(NewtonIntegrator, mask, 424)
 
+STOCK_CLASS(Peri3dController, 1232, 1232)
+STOCK_MEMBER(Peri3dController, stressMask, 800)
+
+STOCK_CLASS(PeriTriaxController, 488, 484)
+STOCK_MEMBER(PeriTriaxController, stressMask, 136)
+
 STOCK_CLASS(ScGeom, 192, 192)
 STOCK_MEMBER(ScGeom, radius1, 144)
 STOCK_MEMBER(ScGeom, radius2, 152)
 STOCK_MEMBER(ScGeom, penetrationDepth, 160)
 STOCK_MEMBER(ScGeom, shearInc, 168)
+
+STOCK_CLASS(TriaxialStressController, 1088, 1081)
+STOCK_MEMBER(TriaxialStressController, stressMask, 1000)
+STOCK_MEMBER(TriaxialStressController, internalCompaction, 1048)
 
 } // namespace yade
