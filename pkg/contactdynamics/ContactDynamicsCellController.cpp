@@ -80,9 +80,9 @@ contactdynamics::MeanField ContactDynamicsCellController::freeMotion(const Scene
 {
 	if (!scene.isPeriodic) throw std::runtime_error("ContactDynamicsCellController: the scene is not periodic (O.periodic is False).");
 	const Cell& cell = *scene.cell;
-	if (cell.homoDeform != Cell::HOMO_POS && cell.homoDeform != Cell::HOMO_VEL)
+	if (cell.homoDeform < Cell::HOMO_POS)
 		throw std::runtime_error("ContactDynamicsCellController: O.cell.homoDeform is " + std::to_string(cell.homoDeform) +
-								 "; it must be 1 or 2, so that the bodies follow the cell.");
+								 "; it must be at least 1, so that the bodies follow the cell.");
 	requireAdmissible(asked()); // again: Python writes single components of a matrix past postLoad()
 	if (inertia > 0) inertiaInUse = inertia;
 	const Real volume = cell.hSize.determinant();
@@ -114,16 +114,19 @@ contactdynamics::MeanField ContactDynamicsCellController::freeMotion(const Scene
 	return field;
 }
 
+void ContactDynamicsCellController::requireSmallStrain(const Scene& scene, const Matrix3r& gradient)
+{
+	const Real strain = scene.dt * gradient.cwiseAbs().maxCoeff();
+	if (strain < largestStrain) return;
+	std::ostringstream message;
+	message << "ContactDynamicsCellController: the cell would be strained by " << strain << " in this step (O.dt = " << scene.dt << "); at most "
+			<< largestStrain << " is allowed. Lower O.dt or set maxStrainRate.";
+	throw std::runtime_error(message.str());
+}
+
 void ContactDynamicsCellController::apply(Scene& scene, const Matrix3r& gradient, const Matrix3r& moment, const Matrix3r& otherStress)
 {
 	Cell& cell = *scene.cell;
-	const Real strain = scene.dt * gradient.cwiseAbs().maxCoeff();
-	if (!(strain < largestStrain)) {
-		std::ostringstream message;
-		message << "ContactDynamicsCellController: the cell would be strained by " << strain << " in this step (O.dt = " << scene.dt << "); at most "
-				<< largestStrain << " is allowed. Lower O.dt or set maxStrainRate.";
-		throw std::runtime_error(message.str());
-	}
 	const Real volume = cell.hSize.determinant();
 	currentStress = otherStress - moment / (scene.dt * volume);
 	const Real added = scene.dt * volume * currentStress.cwiseProduct(0.5 * (cell.velGrad + gradient)).sum();

@@ -18,6 +18,8 @@ public:
 	/// @param otherStress  of interactions that are not part of the solve [Pa]
 	/// @throws std::runtime_error  not periodic, homoDeform 0, or an attribute that is not admissible
 	contactdynamics::MeanField freeMotion(const Scene& scene, const Matrix3r& otherStress);
+	/// @throws std::runtime_error  the step would deform the cell so far that pairs in contact are no longer those the collider found
+	static void requireSmallStrain(const Scene& scene, const Matrix3r& gradient);
 	/// Hands the gradient at the solution to the cell and reports.
 	/// @param moment  see ContactDynamicsStep::moment() [N m s]
 	void apply(Scene& scene, const Matrix3r& gradient, const Matrix3r& moment, const Matrix3r& otherStress);
@@ -40,7 +42,7 @@ public:
 		".. math:: M\\,(L^{+} - L^{-}) = h\\,V\\,(\\sigma_{\\mathrm{goal}} - \\sigma), \\qquad V\\sigma = -\\sum_c \\mathrm{sym}(R_c \\otimes b_c) \n\n"
 		"in the same solve, at the end of the same step, as Signorini's condition and Coulomb's law. At rest the stress is the goal, to the tolerance of the solve; in motion it differs by M·dL/dt/V. "
 		"Stress is that of ``utils.getStress()``: Cauchy stress of the contact forces, positive in tension, without the kinetic part; soft contacts of the scene count. \n\n"
-		"Stands anywhere before :yref:`ContactDynamicsEngine` in ``O.engines``; :yref:`homoDeform<Cell.homoDeform>` must be 1 or 2 and :yref:`NewtonIntegrator.mask` 0. It determines ``O.cell.velGrad``: what a script writes there has no effect while the controller is alive. :yref:`Cell.trsf` tells the strain. "
+		"Stands anywhere before :yref:`ContactDynamicsEngine` in ``O.engines``; :yref:`homoDeform<Cell.homoDeform>` must not be 0 and :yref:`NewtonIntegrator.mask` 0. It determines ``O.cell.velGrad``: what a script writes there has no effect while the controller is alive. :yref:`Cell.trsf` tells the strain. "
 		"An engine of YADE that steers the cell (:yref:`PeriTriaxController`, :yref:`Peri3dController`, :yref:`PeriIsoCompressor`) may not be alive beside it. Errors (RuntimeError from the step, before anything moves) name attribute, value and what is allowed.",
 		((Matrix3r,stress,Matrix3r::Zero(),Attr::triggerPostLoad,"Goal of the components under stress [Pa], positive in tension, so ``-p`` on the diagonal for a pressure p; symmetric. Others are ignored. May be changed at any time. Not symmetric or not finite: ValueError."))
 		((Matrix3r,velGrad,Matrix3r::Zero(),Attr::triggerPostLoad,"Velocity gradient of the components not under stress [1/s], ``velGrad[i,j]`` = ∂v_i/∂x_j, as :yref:`Cell.velGrad`. Of a shear component under stress the difference ``velGrad[i,j] - velGrad[j,i]``, a rotation of the cell, remains prescribed. Not finite: ValueError."))

@@ -95,7 +95,7 @@ void ContactDynamicsEngine::collect()
 		plan.useVelGrad(cell->gradient);
 	}
 	step->collectBodies(*scene, plan);
-	if (cell) step->useMeanField(*cell);
+	if (cell) step->useMeanField(*cell, plan);
 	const Real scale = impulseTimeStep > 0 ? scene->dt / impulseTimeStep : 1;
 	step->collectContacts(*scene, contactLaw, warmStart ? scale : 0);
 	step->usePlane();
@@ -113,6 +113,7 @@ void ContactDynamicsEngine::solve()
 	if (report.status == contactdynamics::SolveStatus::notFinite)
 		throw std::runtime_error("ContactDynamicsEngine: the contact problem of step " + std::to_string(scene->iter) +
 								 " has values that are not finite (external force, inertia or contact geometry); no body was moved.");
+	if (cellController) ContactDynamicsCellController::requireSmallStrain(*scene, step->problem.meanField->gradient);
 	if (converged || onNonConvergence == "ignore") return;
 	std::ostringstream message;
 	message << "ContactDynamicsEngine: step " << scene->iter << ": residual " << residual << " after " << iterations
@@ -126,8 +127,8 @@ void ContactDynamicsEngine::solve()
 void ContactDynamicsEngine::apply()
 {
 	step->elasticEnergy = elasticEnergy;
-	if (cellController) cellController->apply(*scene, step->problem.meanField->gradient, step->moment(), otherStress);
 	step->apply(*scene);
+	if (cellController) cellController->apply(*scene, step->problem.meanField->gradient, step->moment(), otherStress);
 	elasticEnergy = step->elasticEnergy;
 	impulseTimeStep = scene->dt;
 	contacts = static_cast<int>(step->problem.contacts.size());

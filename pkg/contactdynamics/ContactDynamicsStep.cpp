@@ -227,7 +227,7 @@ Vector3r ContactDynamicsStep::relativeVelocity(const contactdynamics::Contact& c
 {
 	Vector3r U =
 			of2.velocity + of2.angularVelocity.cross(contact.arm2) + contact.imageVelocity - of1.velocity - of1.angularVelocity.cross(contact.arm1);
-	if (problem.meanField) U += velGrad * (contact.arm1 - contact.arm2 - places[contact.body2] + places[contact.body1]); // the shift of the image
+	if (problem.meanField) U += velGrad * shiftOf(contact);
 	return U;
 }
 
@@ -235,10 +235,8 @@ Vector3r ContactDynamicsStep::relativeVelocity(const contactdynamics::Contact& c
 bool ContactDynamicsStep::forecast(const Link& link, const contactdynamics::Contact& contact) const
 {
 	if (link.gap <= 0) return true;
-	const auto closes = [&](const Twist& of1, const Twist& of2) {
-		return link.gap + h * contact.normal.dot(relativeVelocity(contact, of1, of2)) <= 0;
-	};
-	return closes(free[contact.body1], free[contact.body2]) || closes(atStart(contact.body1), atStart(contact.body2));
+	const auto closes = [&](const Vector3r& velocity) { return link.gap + h * contact.normal.dot(velocity) <= 0; };
+	return closes(relativeVelocity(contact, free[contact.body1], free[contact.body2])) || closes(velocityAtStart(contact));
 }
 
 void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string& contactLaw, Real warmStart)
@@ -280,8 +278,7 @@ void ContactDynamicsStep::shiftContacts(Real warmStart)
 		const Link& link = links[i];
 		if (link.plain) continue;
 		const contactdynamics::Contact& contact = problem.contacts[i];
-		shifted.shift(problem, static_cast<int>(i), *link.phys,
-					  {link.gap, relativeVelocity(contact, atStart(contact.body1), atStart(contact.body2)), forecast(link, contact), link.swapped});
+		shifted.shift(problem, static_cast<int>(i), *link.phys, {link.gap, velocityAtStart(contact), forecast(link, contact), link.swapped});
 		if (link.phys->rollingArm > 0 || link.phys->twistingArm > 0) rolling.add(static_cast<int>(i), *link.phys, link.swapped, warmStart);
 	}
 }

@@ -6,6 +6,7 @@
 #include "ShiftedContacts.hpp"
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
+#include <optional>
 #include <pkg/solver/SignoriniCoulombSolver.hpp>
 #include <string>
 #include <vector>
@@ -39,9 +40,9 @@ struct ContactDynamicsStep {
 	/// After collectContacts(): recognises a two-dimensional scene, whose disks are solved as balls.
 	void usePlane();
 	/// After collectBodies(): the periodic cell has inertia and moves with the contacts. The velocities collected hold the gradient of the field.
-	void useMeanField(const contactdynamics::MeanField& field);
+	void useMeanField(const contactdynamics::MeanField& field, const IntegratorPlan& plan);
 	contactdynamics::SolveReport solve(Real tolerance, int maxIterations);
-	/// After solve(): what the contacts sustain, Σ r ⊗ b over them (impulse on body 2, vector from mass centre 1 to 2) [N m s].
+	/// After apply(): what the contacts sustain, Σ r ⊗ b over them (impulse on body 2, vector from mass centre 1 to 2) [N m s].
 	Matrix3r moment() const;
 	void apply(Scene& scene);
 	/// After apply(): displaces bodies that overlap, see PenetrationRepair; a rate of 0 only measures.
@@ -84,6 +85,8 @@ private:
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;
 	Twist atStart(int index) const;
 	Vector3r relativeVelocity(const contactdynamics::Contact& contact, const Twist& of1, const Twist& of2) const;
+	Vector3r velocityAtStart(const contactdynamics::Contact& contact) const;
+	Vector3r shiftOf(const contactdynamics::Contact& contact) const;
 	void shiftContacts(Real warmStart);
 	void toMeanField();
 	void fromMeanField();
@@ -101,6 +104,7 @@ private:
 	std::vector<int> idOfIndex;
 	std::vector<FreeMotion> motions;				 // by solver index
 	std::vector<Vector3r> places;					 // likewise, where there is a mean field: positions [m]
+	std::optional<IntegratorPlan> planOfField;		 // where there is a mean field
 	std::vector<std::vector<Interaction*>> gathered; // by thread
 	std::vector<Link> links;						 // parallel to problem.contacts once collected
 	std::vector<Load> loads;						 // contact force and torque by body id

@@ -7,8 +7,9 @@
 
 namespace yade {
 
-void ContactDynamicsStep::useMeanField(const contactdynamics::MeanField& field)
+void ContactDynamicsStep::useMeanField(const contactdynamics::MeanField& field, const IntegratorPlan& plan)
 {
+	planOfField.emplace(plan);
 	problem.meanField = field;
 	places.resize(idOfIndex.size());
 	for (std::size_t index = 0; index < places.size(); index++) {
@@ -29,7 +30,29 @@ void ContactDynamicsStep::toMeanField()
 void ContactDynamicsStep::fromMeanField()
 {
 	velGrad = problem.meanField->gradient;
+	planOfField->useVelGrad(velGrad);
+	displacementAsVelocity = planOfField->velocityOfDisplacement();
 	for (std::size_t i = 0; i < places.size(); i++) problem.bodies[i].velocity += velGrad * places[i];
+}
+
+/// How far the image of body 2 that a contact touches stands from body 2 itself.
+Vector3r ContactDynamicsStep::shiftOf(const contactdynamics::Contact& contact) const
+{
+	return contact.arm1 - contact.arm2 - places[contact.body2] + places[contact.body1];
+}
+
+/// Relative velocity before impulses and external forces act in this step. Where there is a mean field, with the gradient of before and moved along
+/// with the field: then work and energy of a step balance exactly.
+Vector3r ContactDynamicsStep::velocityAtStart(const contactdynamics::Contact& contact) const
+{
+	if (!problem.meanField) return relativeVelocity(contact, atStart(contact.body1), atStart(contact.body2));
+	const Matrix3r& before = planOfField->prevVelGrad;
+	const auto carried = [&](int index) {
+		Twist twist = atStart(index);
+		if (planOfField->homoDeform > 1) twist.velocity += h * before * twist.velocity;
+		return twist;
+	};
+	return relativeVelocity(contact, carried(contact.body1), carried(contact.body2)) + (before - velGrad) * shiftOf(contact);
 }
 
 Matrix3r ContactDynamicsStep::moment() const

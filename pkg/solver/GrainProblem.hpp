@@ -61,7 +61,7 @@ struct MeanField {
 			for (int j = 0; j < 3; ++j) {
 				if (!(inverseMass(i, j) > 0)) continue;
 				const double stretch = free(i, j) + inverseMass(i, j) * push(i, j);
-				L(i, j) += std::min(limit, std::max(-limit, stretch)) - free(i, j);
+				L(i, j) = std::min(limit, std::max(-limit, stretch)) + 0.5 * (gradient(i, j) - gradient(j, i));
 			}
 		return L;
 	}

@@ -11,9 +11,9 @@ from saving_cases import numbers
 from scenes import dumbbell, engine, equip, grain, material, steps
 
 FIRST, SECOND = 40, 30
-PRESSURE = 1e3
-SHEARED = Matrix3(0.1, 0.4, 0, 0, 0, -0.2, 0.3, 0, 0)
-GOAL = Matrix3(-PRESSURE, 100, 0, 100, -1.2 * PRESSURE, 0, 0, 0, -0.8 * PRESSURE)
+PRESSURE = 1e6  # moves a sphere by its size in 0.1 s
+SHEARED = Matrix3(-0.6, 0.4, 0, 0, -0.6, -0.2, 0.3, 0, -0.6)  # closes most gaps of the lattice in 40 steps, but does not jam it
+GOAL = Matrix3(-PRESSURE, 1e5, 0, 1e5, -1.2 * PRESSURE, 0, 0, 0, -0.8 * PRESSURE)
 
 
 def matrix(m) -> np.ndarray:

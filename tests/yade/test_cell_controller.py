@@ -27,7 +27,7 @@ def free_components(mask: int) -> np.ndarray:
     return free
 
 
-@pytest.mark.parametrize("homo_deform", [1, 2])
+@pytest.mark.parametrize("homo_deform", [1, 2, 3])
 @pytest.mark.parametrize("mask", [0, 2, 7, 63])
 def test_cell_obeys_its_equation_of_motion(mask: int, homo_deform: int) -> None:
     """Bodies move as predicted, and M dL = h V (goal − stress), with the stress YADE measures and the gradient YADE applies."""
@@ -53,7 +53,7 @@ def test_cell_obeys_its_equation_of_motion(mask: int, homo_deform: int) -> None:
         assert np.abs(spin).max() <= 1e-14 * (1 + np.abs(after).max())
         moved, touched = max(moved, np.abs((after - matrix(SHEARED))[free]).max(initial=0)), touched + cd().activeContacts
         assert cd().converged
-    assert touched > 1000
+    assert touched > (400 if mask in (7, 63) else 20)
     assert mask == 0 or moved > 1e-2
 
 
@@ -109,13 +109,13 @@ def test_row_of_balls_bears_the_pressure() -> None:
 
 def test_cell_without_contact_falls_freely() -> None:
     """dL = h V stress / M in every step; exact but for round-off."""
-    c = row(2 * PRESSURE, inertia=50.0)
+    c = row(2 * PRESSURE, inertia=5e7)
     rate = 0.0
     for _ in range(20):
         O.step()
-        rate += O.dt * O.cell.volume * 2 * PRESSURE / 50
+        rate += O.dt * O.cell.volume * 2 * PRESSURE / 5e7
         assert O.cell.velGrad[0, 0] == pytest.approx(rate, rel=1e-13)
-    assert c.inertiaInUse == 50 and cd().activeContacts == 0
+    assert c.inertiaInUse == 5e7 and cd().activeContacts == 0
 
 
 def test_inertia_from_the_bodies() -> None:
@@ -164,7 +164,7 @@ def test_soft_contacts_count() -> None:
     assert O.cell.velGrad[0, 0] == pytest.approx(expected, rel=1e-6)  # the volume changes by a part of 1e-7 meanwhile
 
 
-@pytest.mark.parametrize("homo_deform", [0, 1, 2])
+@pytest.mark.parametrize("homo_deform", [0, 1, 2, 3])
 def test_contacts_keep_impulse_and_lever_arms_across_a_flip(homo_deform: int) -> None:
     """The same scene goes on with and without a flip of its sheared cell: same places, velocities and impulses but for round-off."""
     dense(stressMask=0, tolerance=1e-10, velGrad=Matrix3(0, 40, 0, 0, 0, 0, 0, 0, 0), dt=5e-4)
@@ -205,26 +205,66 @@ def test_contacts_keep_impulse_and_lever_arms_across_a_flip(homo_deform: int) ->
 
 def test_flipping_by_itself_in_a_long_shear() -> None:
     """Shear by several cell lengths at constant pressure: momentum stays zero, no overlap grows, the pressure is held."""
-    c = dense(friction=0.3, tolerance=1e-5, dt=1e-3, stressMask=7, velGrad=Matrix3(0, 2, 0, 0, 0, 0, 0, 0, 0), maxStrainRate=3.0)
-    c.stress = Matrix3(-5e4, 0, 0, 0, -5e4, 0, 0, 0, -5e4)
+    c = dense(friction=0.3, tolerance=1e-4, dt=1e-3, stressMask=7, velGrad=Matrix3(0, 2, 0, 0, 0, 0, 0, 0, 0), maxStrainRate=3.0)
+    c.stress = Matrix3(-5e6, 0, 0, 0, -5e6, 0, 0, 0, -5e6)
     O.cell.flipFlippable = True
     for b in O.bodies:
         b.state.vel = Vector3(0, 0, 0)
-    steps(300)
     pressures, flips, last = [], 0, O.cell.hSize[0, 1]
-    for _ in range(900):
+    for step in range(1000):
         O.step()
         flips += O.cell.hSize[0, 1] < last
         last = O.cell.hSize[0, 1]
-        pressures.append(-np.trace(matrix(cases.seen[-1])) / 3 / 5e4)
+        if step >= 200:
+            pressures.append(-np.trace(matrix(cases.seen[-1])) / 3 / 5e6)
         assert cd().converged
     assert flips >= 2
     assert cd().maxPenetration < 1e-3
     assert np.mean(pressures) == pytest.approx(1, abs=0.02)
     mass = sum(b.state.mass for b in O.bodies if not b.isClumpMember)
     moving = [b for b in O.bodies if not b.isClumpMember]
-    drift = sum((b.state.mass * (vec(b.state.vel) - matrix(O.cell.velGrad) @ vec(b.state.pos)) for b in moving), np.zeros(3)) / mass
+    # Velocities hold for the places before the move. The mean field is up to 60 m/s, far from the origin: 1000 steps of its round-off.
+    drift = sum((b.state.mass * vec(b.state.vel - O.cell.velGrad * (b.state.pos - O.dt * b.state.vel)) for b in moving), np.zeros(3)) / mass
     assert np.abs(drift).max() < 1e-10
+
+
+@pytest.mark.parametrize("mask", [0, 7, 63])
+def test_energy_balance(mask: int) -> None:
+    """Kinetic energy about the mean field grows by the work of the cell less what friction and impacts take: exact but for round-off."""
+    cases.seen.clear()
+    generator = np.random.default_rng(12)
+    O.periodic = True
+    O.cell.setBox(8, 8, 8)
+    material(friction=0.4)
+    for k in range(64):
+        place = 2 * np.array([k % 4, k // 4 % 4, k // 16]) + 1 + generator.uniform(-0.05, 0.05, 3)
+        grain(place, radius=0.97, velocity=generator.uniform(-1, 1, 3), spin=generator.uniform(-1, 1, 3))
+    equip(1e-3, gravity=(0, 0, 0), tolerance=1e-3)
+    c = control(stress=GOAL, velGrad=SHEARED, stressMask=mask)
+    O.trackEnergy = True
+
+    def kinetic(places: dict) -> float:
+        total = 0.0
+        for b in O.bodies:
+            s = b.state
+            total += 0.5 * s.mass * (s.vel - O.cell.velGrad * places[b.id]).squaredNorm() + 0.5 * s.inertia[0] * s.angVel.squaredNorm()
+        return total
+
+    def taken() -> float:
+        return sum(value for name, value in O.energy.items() if name.startswith("contact"))
+
+    for step in range(40):
+        # Positions at which the velocities hold: those before the move. The mean spin is put into the bodies in the first step, without work.
+        places = {b.id: Vector3(b.state.pos) for b in O.bodies}
+        O.step()
+        now = (kinetic(places), taken(), c.work)
+        if step > 1:
+            growth, loss, work = (a - b for a, b in zip(now, before))
+            size = now[0] + abs(loss) + abs(work)
+            assert abs(growth + loss - work) <= 1e-12 * size
+        before = now
+    assert taken() > 0.1 * now[0]
+    assert O.energy["velGradWork"] == pytest.approx(-c.work, rel=1e-12)
 
 
 def test_same_bits_with_two_threads_and_across_a_file(tmp_path) -> None:
@@ -312,7 +352,7 @@ def test_nothing_to_take_the_inertia_from() -> None:
     equip(1e-3)
     c = control(stress=GOAL)
     refused("inertia", "movable")
-    c.inertia = 1
+    c.inertia = 1e12
     steps(1)
 
 

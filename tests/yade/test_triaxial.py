@@ -50,26 +50,27 @@ def test_wall_obeys_its_equation_of_motion(gravity) -> None:
 
 def test_confinement_at_rest_and_report() -> None:
     """At rest both walls of every pair carry the goal; the tensor of all contacts agrees with the walls."""
-    walls = cases.build(friction=0.3, tolerance=1e-8)
-    steps(600)
+    walls = cases.build(friction=0.3, tolerance=1e-6)
+    steps(500)
     found = triaxial.report()
-    assert found.wallStress == pytest.approx([-PRESSURE] * 3, rel=1e-5)
-    assert found.imbalance < 1e-5
+    # The error of a sum over the contacts of a wall is that of single contacts, 1e-6, times the spread of the forces and the size of the packing.
+    assert found.wallStress == pytest.approx([-PRESSURE] * 3, rel=1e-3)
+    assert found.imbalance < 1e-3
     # In equilibrium the sum of r ⊗ b over the contacts is that of the wall forces times their places: Gauss.
-    assert [found.stress[i, i] for i in range(3)] == pytest.approx([-PRESSURE] * 3, rel=1e-4)
-    assert found.mobilisedFriction < 0.01
+    assert [found.stress[i, i] for i in range(3)] == pytest.approx([-PRESSURE] * 3, rel=2e-3)
+    assert found.mobilisedFriction < 0.1
     assert found.strain == pytest.approx([math.log(s / (4 * 2.05)) for s in found.size], rel=1e-12)
     grains = sum(4 / 3 * math.pi * b.shape.radius**3 for b in O.bodies if b.id not in walls)
     assert found.packingFraction == pytest.approx(grains / np.prod(vec(found.size)), rel=1e-12)
     for number in walls[1::2]:
-        assert state(number).vel.norm() < 1e-6
-        assert impulse_on(number).max() / H == pytest.approx(PRESSURE * np.prod(vec(found.size)) / found.size[walls.index(number) // 2], rel=1e-5)
+        assert state(number).vel.norm() < 1e-3 * 2 / 0.1  # of a diameter in the time the pressure moves a grain by it
+        assert impulse_on(number).max() / H == pytest.approx(PRESSURE * np.prod(vec(found.size)) / found.size[walls.index(number) // 2], rel=1e-3)
 
 
 def test_shear_drives_one_axis_and_holds_the_others() -> None:
     cases.build(friction=0.3, tolerance=1e-6)
     steps(300)
-    triaxial.shear(-0.05)
+    triaxial.shear(-0.3)
     steps(1)
     start = controller().size[2]
     held = []
@@ -77,10 +78,11 @@ def test_shear_drives_one_axis_and_holds_the_others() -> None:
         O.step()
         held.append(vec(triaxial.report().wallStress))
     found = triaxial.report()
-    assert found.strain[2] == pytest.approx(-0.05 * 300 * H, rel=1e-9)
-    assert found.size[2] == pytest.approx(start * math.exp(-0.05 * 300 * H), rel=1e-12)
+    assert found.strain[2] == pytest.approx(-0.3 * 300 * H, rel=1e-9)
+    assert found.size[2] == pytest.approx(start * math.exp(-0.3 * 300 * H), rel=1e-12)
+    # The mean over 0.4 s leaves the change of momentum of 64 grains and a wall, some 6e5 kg by 1 m/s, over that time and 60 m2.
     mean = np.mean(held[100:], axis=0)
-    assert mean[:2] == pytest.approx([-PRESSURE] * 2, rel=0.02)
+    assert mean[:2] == pytest.approx([-PRESSURE] * 2, rel=0.05)
     assert mean[2] < -1.2 * PRESSURE
     assert 5 < found.mobilisedFriction < 60
     triaxial.shear(0, axis="x", resetStrain=False)
@@ -91,15 +93,15 @@ def test_shear_drives_one_axis_and_holds_the_others() -> None:
 
 def test_walls_of_shape_wall() -> None:
     """YADE's infinite planes serve as well as boxes."""
-    material(0.3)
-    walls = [O.bodies.append(utils.wall(place * 4.1, axis, sense=0, material=O.materials[0])) for axis in range(3) for place in (0, 1)]
+    material(0.3), material(0)
+    walls = [O.bodies.append(utils.wall(place * 4.1, axis, sense=0, material=O.materials[1])) for axis in range(3) for place in (0, 1)]
     for k in range(8):
         grain(2.05 * (np.array([k % 2, k // 2 % 2, k // 4]) + 0.5), radius=1)
-    O.engines = triaxial.engines(walls, stress=-PRESSURE, maxStrainRate=0.5, tolerance=1e-8)
+    O.engines = triaxial.engines(walls, stress=-PRESSURE, maxStrainRate=0.5, tolerance=1e-8, maxIterations=5000)
     O.dt = H
-    steps(400)
+    steps(150)
     found = triaxial.report()
-    assert found.size == pytest.approx([4, 4, 4], abs=1e-4)
+    assert found.size == pytest.approx([4, 4, 4], abs=1e-6)
     assert found.wallStress == pytest.approx([-PRESSURE] * 3, rel=1e-5)
 
 

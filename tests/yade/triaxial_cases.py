@@ -11,8 +11,8 @@ from saving_cases import numbers
 from scenes import engine, grain, material, steps
 
 FIRST, SECOND = 60, 40
-PRESSURE = 1e4
-H = 1e-3
+PRESSURE = 1e6  # moves a sphere by its size in 0.1 s
+H = 2e-3
 
 
 def build(friction: float = 0.4, tolerance: float = 1e-4, side: int = 4, **more) -> list[int]:
