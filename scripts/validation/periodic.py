@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Periodic assembly of hard balls: compressed to a pressure, then sheared at that pressure.
 
-    PYTHONPATH=build/python yade -n -x scripts/validation/periodic.py [grains=5000] [friction=0] [steps=3000] [shear=0] [seed=1] [out=FILE]
+    PYTHONPATH=build/python yade -n -x scripts/validation/periodic.py [grains=5000] [friction=0] [steps=3000] [shear=0] [seed=1] [sweeps=5000] [out=FILE]
 
 Compression starts from a gas (packing fraction 0.3) of balls with radii 0.9 ... 1.1, at three equal pressures and without shear; its rate is bounded
 to 0.3 / t_i, t_i = d sqrt(density / pressure). It is steered at the default tolerance, and settled at 1e-6. Then `shear` steps of simple shear at
@@ -18,7 +18,7 @@ from yade import FrictMat, Matrix3, O, Vector3, pack, utils
 
 import contactdynamics
 
-options = dict(grains="5000", friction="0", steps="3000", shear="0", seed="1", out="")
+options = dict(grains="5000", friction="0", steps="3000", shear="0", seed="1", sweeps="5000", out="")
 options.update(argument.split("=", 1) for argument in sys.argv[1:])
 count, friction, seed = int(options["grains"]), float(options["friction"]), int(options["seed"])
 radius, density, pressure = 0.01, 2600.0, 1e3
@@ -60,7 +60,7 @@ balls.toSimulation(material=O.materials[0])
 control = contactdynamics.ContactDynamicsCellController(
     stress=Matrix3(-pressure, 0, 0, 0, -pressure, 0, 0, 0, -pressure), maxStrainRate=0.3 / inertial
 )
-O.engines = contactdynamics.engines(gravity=(0, 0, 0), maxIterations=5000)
+O.engines = contactdynamics.engines(gravity=(0, 0, 0), maxIterations=int(options["sweeps"]))
 O.engines = O.engines[:-2] + [control] + O.engines[-2:]
 O.dt = 0.03 * inertial
 start = time.process_time()

