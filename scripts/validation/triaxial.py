@@ -3,11 +3,12 @@
 
     PYTHONPATH=build/python yade -n -x scripts/validation/triaxial.py pack FILE [grains=5000] [friction=0.5] [seed=1] [steps=1000] [sweeps=1000]
     PYTHONPATH=build/python yade -n -x scripts/validation/triaxial.py cd FILE [strain=0.15] [rate=3e-3]
-    PYTHONPATH=build/python yade -n -x scripts/validation/triaxial.py soft FILE [strain=0.15] [rate=3e-3] [stiffness=1000]
+    PYTHONPATH=build/python yade -n -x scripts/validation/triaxial.py soft FILE [strain=0.15] [rate=3e-3] [stiffness=1000] [damping=0.02]
 
 `pack` confines a gas of balls with Contact Dynamics and saves it; the others load it, bring it to the confinement, and compress along z at the rate
 `rate` / t_i, t_i = d sqrt(density / pressure), with constant lateral stress. The soft contacts have k = `stiffness` x pressure x diameter (so the
-overlap under the confinement is about 1 / `stiffness` of a diameter), the law of Cundall and Strack, YADE's TriaxialStressController and damping 0.2.
+overlap under the confinement is about 1 / `stiffness` of a diameter), the law of Cundall and Strack and YADE's TriaxialStressController.
+Damping is kept small: as a force against the motion it adds to the friction that is to be measured (0.2 makes 21.5 degree of 18 in a packing of 1000).
 Printed: axial and volumetric strain, lateral stress against its goal, mobilised friction angle; last the means from a third of the strain on, and the
 peak of the angle averaged over 1 % of strain.
 """
@@ -25,7 +26,7 @@ from yade import (
 from contactdynamics import triaxial
 
 what, file = sys.argv[1:3]
-options = dict(grains="5000", friction="0.5", seed="1", strain="0.15", rate="3e-3", stiffness="1000", steps="1000", sweeps="1000")
+options = dict(grains="5000", friction="0.5", seed="1", strain="0.15", rate="3e-3", stiffness="1000", damping="0.02", steps="1000", sweeps="1000")
 options.update(argument.split("=", 1) for argument in sys.argv[3:])
 radius, density, pressure = 0.01, 2600.0, 1e3
 inertial = 2 * radius * math.sqrt(density / pressure)
@@ -83,7 +84,7 @@ def hard() -> None:
         found = triaxial.report()
         record(found.strain, found.wallStress)
         if steps % 100 == 0:
-            tell(steps, f"sweeps {cd.iterations}  overlap/r {cd.maxPenetration / radius:.1e}")
+            tell(steps, f"fraction {found.packingFraction:.4f}  sweeps {cd.iterations}  overlap/r {cd.maxPenetration / radius:.1e}")
     conclude()
 
 
@@ -94,8 +95,8 @@ def soft() -> None:
     for number in walls:
         O.bodies[number].state.blockedDOFs = "xyzXYZ"
         O.bodies[number].state.vel = Vector3(0, 0, 0)
-    for material in O.materials:
-        material.young, material.poisson = 2 * float(options["stiffness"]) * pressure, 0.3
+    for body in O.bodies:
+        body.material.young, body.material.poisson = 2 * float(options["stiffness"]) * pressure, 0.3
     ends = dict(zip(("left", "right", "bottom", "top", "back", "front"), walls))
     control = TriaxialStressController(
         thickness=0, internalCompaction=False, stressMask=7, goal1=-pressure, goal2=-pressure, goal3=-pressure, max_vel=0.1 * radius / inertial,
@@ -105,7 +106,7 @@ def soft() -> None:
         InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Box_Aabb()]),
         InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Box_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
         control,
-        NewtonIntegrator(damping=0.2),
+        NewtonIntegrator(damping=float(options["damping"])),
     ]
     O.dt = 0.5 * utils.PWaveTimeStep()
 
@@ -113,9 +114,9 @@ def soft() -> None:
         return [0.5 * (control.stress(i)[axis] + control.stress(j)[axis]) for axis, (i, j) in enumerate(((0, 1), (2, 3), (4, 5)))]
 
     for _ in range(100):
-        O.run(100, True)
-        print("confining", [f"{-s / pressure:.4f}" for s in stresses()], f"unbalanced {utils.unbalancedForce():.2e}", flush=True)
-        if max(abs(-s / pressure - 1) for s in stresses()) < 0.005 and utils.unbalancedForce() < 1e-3:
+        O.run(50, True)
+        print("confining", [f"{-s / pressure:.4f}" for s in stresses()], f"unbalanced {utils.unbalancedForce():.2e}  fraction {1 - control.porosity:.4f}", flush=True)
+        if max(abs(-s / pressure - 1) for s in stresses()) < 0.01:  # no longer than needed: the walls never quite rest, and shake the packing denser
             break
     origin = [float(e) for e in control.strain]
     control.stressMask, control.goal3 = 3, -rate
@@ -124,7 +125,7 @@ def soft() -> None:
         O.run(every, True)
         record([float(e) - o for e, o in zip(control.strain, origin)], stresses())
         if len(rows) % 100 == 0:
-            tell(O.iter)
+            tell(O.iter, f"fraction {1 - control.porosity:.4f}")
     conclude()
 
 

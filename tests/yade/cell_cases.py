@@ -7,10 +7,10 @@ import numpy as np
 from yade import Matrix3, O, PyRunner, utils
 
 from contactdynamics import ContactDynamicsCellController
+from halves import Halves
 from saving_cases import numbers
-from scenes import dumbbell, engine, equip, grain, material, steps
+from scenes import dumbbell, engine, equip, grain, material
 
-FIRST, SECOND = 40, 30
 PRESSURE = 1e6  # moves a sphere by its size in 0.1 s
 SHEARED = Matrix3(-0.6, 0.4, 0, 0, -0.6, -0.2, 0.3, 0, -0.6)  # closes most gaps of the lattice in 40 steps, but does not jam it
 GOAL = Matrix3(-PRESSURE, 1e5, 0, 1e5, -1.2 * PRESSURE, 0, 0, 0, -0.8 * PRESSURE)
@@ -26,12 +26,17 @@ def control(**attributes):
     made = ContactDynamicsCellController(**attributes)
     engines = list(O.engines)
     place = next(i for i, e in enumerate(engines) if type(e).__name__ == "ContactDynamicsEngine")
-    measure = PyRunner(command="import cell_cases as c; c.seen.append(c.utils.getStress())", iterPeriod=1, initRun=True)
+    measure = PyRunner(command="import cell_cases as c; c.look()", iterPeriod=1, initRun=True)
     O.engines = engines[:place] + [made, engines[place], measure] + engines[place + 1 :]
     return engine("ContactDynamicsCellController")
 
 
 seen: list = []  # stress behind the engine, before the bodies move, as YADE defines it
+
+
+def look() -> None:
+    """Keep it."""
+    seen.append(utils.getStress())
 
 
 def dense(friction: float = 0.4, tolerance: float = 1e-6, dt: float = 1e-3, **attributes):
@@ -70,32 +75,5 @@ def bits() -> str:
     return numbers() + " ".join(float(v).hex() for v in values) + "\n"
 
 
-def straight(result: str) -> None:
-    """The whole run."""
-    build()
-    steps(FIRST + SECOND)
-    _write(result)
-
-
-def until_half(scene: str) -> None:
-    """The first part, saved."""
-    build()
-    steps(FIRST)
-    O.save(scene)
-
-
-def from_half(scene: str, result: str) -> None:
-    """The second part, from a file."""
-    import contactdynamics  # noqa: F401  (a script that only loads a scene needs the classes)
-
-    O.load(scene)
-    steps(SECOND)
-    _write(result)
-
-
-def _write(result: str) -> None:
-    assert O.iter == FIRST + SECOND
-    text = bits()
-    assert text.count("sliding") + text.count("sticking") > 60, "the scene has too few contacts to tell anything"
-    with open(result, "w") as file:
-        file.write(text)
+_halves = Halves(build, bits, first=40, second=30)
+straight, until_half, from_half = _halves.straight, _halves.until_half, _halves.from_half

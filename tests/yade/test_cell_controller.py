@@ -3,17 +3,17 @@
 
 from __future__ import annotations
 
-import re
-
 import numpy as np
 import pytest
-from yade import Matrix3, NewtonIntegrator, O, PyRunner, Vector3, utils
+from yade import Matrix3, O, Vector3
 
 import cell_cases as cases
 from cell_cases import GOAL, PRESSURE, SHEARED, control, dense, matrix
 from contactdynamics import ContactDynamicsCellController
+from halves import same_bits
 from prediction import step_and_compare
-from scenes import cd, contacts, engine, equip, grain, isolated, material, state, steps, vec
+from refusal import attribute_refused, refused
+from scenes import cd, contacts, engine, equip, grain, material, state, steps, vec
 
 # Components under stress, by bit of stressMask: xx, yy, zz, yz, zx, xy.
 PLACES = [(0, 0), (1, 1), (2, 2), (1, 2), (2, 0), (0, 1)]
@@ -268,13 +268,7 @@ def test_energy_balance(mask: int) -> None:
 
 
 def test_same_bits_with_two_threads_and_across_a_file(tmp_path) -> None:
-    isolated("yade", "cell_cases", "straight", tmp_path / "one")
-    isolated("yade", "cell_cases", "straight", tmp_path / "two", threads=2)
-    isolated("yade", "cell_cases", "until_half", tmp_path / "half.yade.gz", threads=2)
-    isolated("yade", "cell_cases", "from_half", tmp_path / "half.yade.gz", tmp_path / "second")
-    expected = (tmp_path / "one").read_text()
-    assert (tmp_path / "two").read_text() == expected
-    assert (tmp_path / "second").read_text() == expected
+    same_bits("cell_cases", tmp_path)
 
 
 # --- bad input ------------------------------------------------------------------------------------------------------
@@ -297,21 +291,7 @@ NAN = float("nan")
     ],
 )
 def test_inadmissible_attributes(attribute: str, value, words) -> None:
-    c = ContactDynamicsCellController(stress=GOAL, velGrad=SHEARED, stressMask=5, inertia=3, maxStrainRate=2)
-    before = str(getattr(c, attribute))
-    for attempt in (lambda: setattr(c, attribute, value), lambda: ContactDynamicsCellController(**{attribute: value})):
-        with pytest.raises(ValueError) as caught:
-            attempt()
-        for word in words:
-            assert re.search(word, str(caught.value)), f"{word!r} is missing in the message: {caught.value}"
-    assert str(getattr(c, attribute)) == before
-
-
-def refused(*words: str) -> None:
-    with pytest.raises((RuntimeError, ValueError)) as caught:
-        O.step()
-    for word in words:
-        assert re.search(word, str(caught.value)), f"{word!r} is missing in the message: {caught.value}"
+    attribute_refused(ContactDynamicsCellController, attribute, value, words, stress=GOAL, velGrad=SHEARED, stressMask=5, inertia=3, maxStrainRate=2)
 
 
 def test_component_written_in_place() -> None:

@@ -4,17 +4,17 @@
 from __future__ import annotations
 
 import math
-import re
-
 import numpy as np
 import pytest
-from yade import Matrix3, O, Vector3, utils
+from yade import O, Vector3, utils
 
 import contactdynamics.triaxial as triaxial
 import triaxial_cases as cases
 from contactdynamics import ContactDynamicsTriaxialController
+from halves import same_bits
 from prediction import step_and_compare
-from scenes import cd, contacts, engine, equip, grain, impulse_on, isolated, material, state, steps, vec
+from refusal import attribute_refused, refused
+from scenes import engine, grain, impulse_on, material, state, steps, vec
 from triaxial_cases import H, PRESSURE
 
 
@@ -106,13 +106,7 @@ def test_walls_of_shape_wall() -> None:
 
 
 def test_same_bits_with_two_threads_and_across_a_file(tmp_path) -> None:
-    isolated("yade", "triaxial_cases", "straight", tmp_path / "one")
-    isolated("yade", "triaxial_cases", "straight", tmp_path / "two", threads=2)
-    isolated("yade", "triaxial_cases", "until_half", tmp_path / "half.yade.gz", threads=2)
-    isolated("yade", "triaxial_cases", "from_half", tmp_path / "half.yade.gz", tmp_path / "second")
-    expected = (tmp_path / "one").read_text()
-    assert (tmp_path / "two").read_text() == expected
-    assert (tmp_path / "second").read_text() == expected
+    same_bits("triaxial_cases", tmp_path)
 
 
 # --- bad input ------------------------------------------------------------------------------------------------------
@@ -138,25 +132,7 @@ NAN, INF = float("nan"), float("inf")
     ],
 )
 def test_inadmissible_attributes(attribute: str, value, words) -> None:
-    c = ContactDynamicsTriaxialController(
-        walls=[5, 4, 3, 2, 1, 0], stress=(-1, -2, -3), strainRate=(1, 2, 3), stressMask=5, wallMass=3, maxStrainRate=2
-    )
-    before = str(getattr(c, attribute))
-    for attempt in (lambda: setattr(c, attribute, value), lambda: ContactDynamicsTriaxialController(**{attribute: value})):
-        with pytest.raises(ValueError) as caught:
-            attempt()
-        for word in words:
-            assert re.search(word, str(caught.value)), f"{word!r} is missing in the message: {caught.value}"
-    assert str(getattr(c, attribute)) == before
-
-
-def refused(*words: str) -> None:
-    before = [tuple(b.state.pos) for b in O.bodies if b]
-    with pytest.raises((RuntimeError, ValueError)) as caught:
-        O.step()
-    for word in words:
-        assert re.search(word, str(caught.value)), f"{word!r} is missing in the message: {caught.value}"
-    assert [tuple(b.state.pos) for b in O.bodies if b] == before
+    attribute_refused(ContactDynamicsTriaxialController, attribute, value, words, walls=[5, 4, 3, 2, 1, 0], stress=(-1, -2, -3), strainRate=(1, 2, 3), stressMask=5, wallMass=3, maxStrainRate=2)
 
 
 def test_no_walls() -> None:

@@ -7,10 +7,10 @@ import numpy as np
 from yade import O
 
 import contactdynamics.triaxial as triaxial
+from halves import Halves
 from saving_cases import numbers
-from scenes import engine, grain, material, steps
+from scenes import engine, grain, material
 
-FIRST, SECOND = 60, 40
 PRESSURE = 1e6  # moves a sphere by its size in 0.1 s
 H = 2e-3
 
@@ -35,37 +35,13 @@ def bits() -> str:
     return numbers() + " ".join(float(v).hex() for v in [*c.size, *c.strain, c.wallMassInUse]) + "\n"
 
 
-def straight(result: str) -> None:
-    """The whole run: confined, then sheared."""
-    build()
-    _shear(FIRST + SECOND)
-    _write(result)
-
-
-def until_half(scene: str) -> None:
-    """The first part, saved."""
-    build()
-    _shear(FIRST)
-    O.save(scene)
-
-
-def from_half(scene: str, result: str) -> None:
-    """The second part, from a file."""
-    O.load(scene)
-    steps(SECOND)
-    _write(result)
-
-
-def _shear(number: int) -> None:
+def _sheared(number: int) -> None:
+    """Confined at first, then sheared."""
     for _ in range(number):
-        if O.iter == FIRST - 10:
+        if O.iter == 50:
             triaxial.shear(-0.5)
         O.step()
 
 
-def _write(result: str) -> None:
-    assert O.iter == FIRST + SECOND
-    text = bits()
-    assert text.count("sliding") + text.count("sticking") > 60, "the scene has too few contacts to tell anything"
-    with open(result, "w") as file:
-        file.write(text)
+_halves = Halves(build, bits, first=60, second=40, steps=_sheared)
+straight, until_half, from_half = _halves.straight, _halves.until_half, _halves.from_half
