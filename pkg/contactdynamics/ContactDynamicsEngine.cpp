@@ -36,11 +36,12 @@ template <class Value> [[noreturn]] void refuse(const char* attribute, const Val
 
 void ContactDynamicsEngine::postLoad(ContactDynamicsEngine&)
 {
-	const Admitted asked{tolerance, maxIterations, contactLaw, onNonConvergence, repairRate, allowedOverlap};
+	const Admitted asked{tolerance, maxIterations, contactLaw, onNonConvergence, acceleration, repairRate, allowedOverlap};
 	tolerance = admitted.tolerance;
 	maxIterations = admitted.maxIterations;
 	contactLaw = admitted.contactLaw;
 	onNonConvergence = admitted.onNonConvergence;
+	acceleration = admitted.acceleration;
 	repairRate = admitted.repairRate;
 	allowedOverlap = admitted.allowedOverlap;
 	if (!(asked.tolerance > 0 && std::isfinite(asked.tolerance))) refuse("tolerance", asked.tolerance, "it must be positive and finite");
@@ -49,6 +50,8 @@ void ContactDynamicsEngine::postLoad(ContactDynamicsEngine&)
 		refuse("contactLaw", '"' + asked.contactLaw + '"', "allowed are quasiInelasticShock, velocitySignorini and signorini");
 	if (asked.onNonConvergence != "warn" && asked.onNonConvergence != "raise" && asked.onNonConvergence != "ignore")
 		refuse("onNonConvergence", '"' + asked.onNonConvergence + '"', "allowed are warn, raise and ignore");
+	if (asked.acceleration != "default" && asked.acceleration != "none")
+		refuse("acceleration", '"' + asked.acceleration + '"', "allowed are default and none");
 	if (!(asked.repairRate >= 0 && asked.repairRate <= 1)) refuse("repairRate", asked.repairRate, "it must lie between 0 (no repair) and 1");
 	if (!(asked.allowedOverlap >= 0 && std::isfinite(asked.allowedOverlap)))
 		refuse("allowedOverlap", asked.allowedOverlap, "it must be finite and not negative");
@@ -56,6 +59,7 @@ void ContactDynamicsEngine::postLoad(ContactDynamicsEngine&)
 	maxIterations = asked.maxIterations;
 	contactLaw = asked.contactLaw;
 	onNonConvergence = asked.onNonConvergence;
+	acceleration = asked.acceleration;
 	repairRate = asked.repairRate;
 	allowedOverlap = asked.allowedOverlap;
 	admitted = asked;
@@ -105,7 +109,7 @@ void ContactDynamicsEngine::collect()
 
 void ContactDynamicsEngine::solve()
 {
-	const auto report = step->solve(tolerance, maxIterations);
+	const auto report = step->solve(tolerance, maxIterations, acceleration != "none");
 	iterations = report.iterations;
 	residual = report.residual;
 	maxApproachSpeed = report.maxApproachSpeed;
@@ -116,9 +120,15 @@ void ContactDynamicsEngine::solve()
 	if (cellController) ContactDynamicsCellController::requireSmallStrain(*scene, step->problem.meanField->gradient);
 	if (converged || onNonConvergence == "ignore") return;
 	std::ostringstream message;
-	message << "ContactDynamicsEngine: step " << scene->iter << ": residual " << residual << " after " << iterations
-			<< " sweeps is above the tolerance " << tolerance << " (" << step->problem.contacts.size() << " contacts, largest approach speed left "
-			<< maxApproachSpeed << " m/s). Raise maxIterations or tolerance, or lower O.dt.";
+	if (report.status == contactdynamics::SolveStatus::unbounded)
+		message << "ContactDynamicsEngine: step " << scene->iter
+				<< ": the contact problem has no solution: bodies are pressed from opposite sides by bodies "
+				<< "whose motion is given, and impulses without bound do not stop them (largest approach speed left " << maxApproachSpeed
+				<< " m/s). Stop the walls, or let a force drive them.";
+	else
+		message << "ContactDynamicsEngine: step " << scene->iter << ": residual " << residual << " after " << iterations
+				<< " sweeps is above the tolerance " << tolerance << " (" << step->problem.contacts.size()
+				<< " contacts, largest approach speed left " << maxApproachSpeed << " m/s). Raise maxIterations or tolerance, or lower O.dt.";
 	if (onNonConvergence == "raise") throw std::runtime_error(message.str());
 	if (!warned) std::cerr << "WARNING: " << message.str() << " Said once; see ContactDynamicsEngine.converged." << std::endl;
 	warned = true;
@@ -136,13 +146,14 @@ void ContactDynamicsEngine::apply()
 	maxPenetration = step->maxPenetration;
 	meanPenetration = step->meanPenetration;
 	step->repairPenetration(*scene, repairRate, allowedOverlap);
-	remainingOverlap = step->repair.remainingOverlap();
-	repairDisplacement = step->repair.largestDisplacement();
+	remainingOverlap = step->remainingOverlap;
+	repairDisplacement = step->repairDisplacement;
 }
 
 boost::python::list ContactDynamicsEngine::freeVelocities() const { return step->velocitiesById(step->free); }
 boost::python::list ContactDynamicsEngine::predictedVelocities() const { return step->velocitiesById(step->end()); }
 boost::python::list ContactDynamicsEngine::predictedAngularMomenta() const { return step->angularMomentaById(); }
 boost::python::dict ContactDynamicsEngine::lastProblem() const { return step->asDictionary(); }
+boost::python::dict ContactDynamicsEngine::convergenceNorms() const { return step->normsAsDictionary(); }
 
 } // namespace yade

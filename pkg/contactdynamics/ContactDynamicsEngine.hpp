@@ -20,6 +20,7 @@ public:
 	boost::python::list predictedVelocities() const;
 	boost::python::list predictedAngularMomenta() const;
 	boost::python::dict lastProblem() const;
+	boost::python::dict convergenceNorms() const;
 
 private:
 	struct Step; // problem, solver and what connects them with the scene; kept between steps so that memory is allocated once
@@ -34,8 +35,8 @@ private:
 	struct Admitted {
 		Real tolerance = 1e-4;
 		int maxIterations = 1000;
-		string contactLaw = "quasiInelasticShock", onNonConvergence = "warn";
-		Real repairRate = 0, allowedOverlap = 1e-5;
+		string contactLaw = "quasiInelasticShock", onNonConvergence = "warn", acceleration = "default";
+		Real repairRate = 0.1, allowedOverlap = 1e-5;
 	} admitted;
 	bool warned = false;
 
@@ -56,11 +57,13 @@ public:
 		((bool,warmStart,true,,"Start the solve from the impulses of the last step, scaled to the present time step. Default True: saves most of the sweeps and selects the solution that follows the history of loading (Jean 1999, section 8). False starts from zero."))
 		((string,onNonConvergence,"warn",Attr::triggerPostLoad,"What to do when :yref:`maxIterations<ContactDynamicsEngine.maxIterations>` sweeps leave the residual above the tolerance: ``warn`` (default) says so once on standard error and goes on with the impulses reached (admissible: inside the cone), ``raise`` stops the step with a RuntimeError before the bodies move, ``ignore`` goes on. "
 			":yref:`converged<ContactDynamicsEngine.converged>` tells in every case."))
+		((string,acceleration,"default",Attr::triggerPostLoad,"What is done between the sweeps of the nonlinear block Gauss–Seidel loop (section 5.4): ``default`` momentum with restart, and plain sweeps set against it where it stalls; ``none`` nothing, the plain loop of the paper, contact after contact from the impulses handed over. Both stop on the same certificate, so velocities agree to the tolerance; where the impulses are not unique (section 8) ``none`` stays "
+			"closest to the history of loading and ``default`` needs far fewer sweeps. The order of the contacts is that of a colouring, the same for both and for any number of threads. Another name raises ValueError."))
 		((int,contacts,0,Attr::readonly,"Number of contacts in the last solve: candidates that the two bodies may close within a step, touching or not [-]."))
 		((int,activeContacts,0,Attr::readonly,"Number of contacts that carry an impulse after the last solve [-]."))
 		((int,iterations,0,Attr::readonly,"Sweeps of the last solve [-]."))
 		((Real,residual,0,Attr::readonly,"Certificate of the last solve [-]: norm of the natural map F = r − P(r − (u + μ|u_T|n)/W_NN) of all contacts over the norm of their impulses r, both weighted with the local Delassus operator W (so it does not depend on units); P projects on Coulomb's cone. It is the error of the projection equations (2), (7) at the impulses applied, not the size of the last update."))
-		((bool,converged,true,Attr::readonly,"Whether the last residual met the tolerance."))
+		((bool,converged,true,Attr::readonly,"Whether the last residual met the tolerance, and not by impulses that grow without bound: where a grain is squeezed between walls with given motion there is no solution, and False is said although any residual relative to the impulses becomes small in the end."))
 		((string,plane,"",Attr::readonly,"Plane of a two-dimensional scene, recognised in every step: ``xy``, ``yz`` or ``zx`` if all movable bodies have the other translation and rotations blocked (:yref:`blockedDOFs<State.blockedDOFs>` ``zXY``, ``xYZ``, ``yZX``) and all contacts lie in that plane; empty otherwise. "
 			"Contacts are then solved by the closed form (34). ``contactdynamics.plane`` makes the disks."))
 		((int,ambiguousContacts,0,Attr::readonly,"Number of contacts in the last solve that violate the condition (33) for a unique solution, μ|W_TN| < W_NN with W the local Delassus operator and W_TN its coupling of tangential impulse and normal velocity [-]. Such a contact of a rigid body has several solutions or none (Painlevé's paradox): one of them is taken, sticking before sliding. "
@@ -68,12 +71,12 @@ public:
 		((Real,maxPenetration,0,Attr::readonly,"Largest overlap of two bodies at the positions the last solve started from [m], ≥ 0."))
 		((Real,meanPenetration,0,Attr::readonly,"Mean overlap of the active contacts at the positions the last solve started from, those with a gap counted as 0 [m]."))
 		((Real,maxApproachSpeed,0,Attr::readonly,"Largest speed at which a contact still violates its condition after the last solve, max(0, −(U_N + max(0,g)/h)) for the default law [m/s]; divided by the speed gravity gives in a step, h·g, it tells what the residual means in motion."))
-		((Real,repairRate,0,Attr::triggerPostLoad,"Share of the overlap beyond :yref:`allowedOverlap<ContactDynamicsEngine.allowedOverlap>` that penetration repair takes away in a step [-], 0 … 1, all overlaps in the same proportion: so much that the deepest one shrinks by 1e-4 of a radius, but at least 0.006 and at most this rate. "
-			"Overlaps, left by the residual of the solve or by a packing made with a soft law, are removed by displacing the bodies (pseudo-velocities from a frictionless contact problem in which loaded contacts stay closed; true masses, no rotation, blocked translations kept); velocities and impulses do not change, so no kinetic energy comes from it. "
-			"Default 0: off, because it costs a second solve in every step with an overlap and is not yet tried on large packings. 0.1 is gentle enough that grains stay supported while a soft packing grows to its rigid size. A value outside raises ValueError. A step without overlaps is the same, bit for bit, with and without repair."))
-		((Real,allowedOverlap,1e-5,Attr::triggerPostLoad,"Overlap that :yref:`repairRate<ContactDynamicsEngine.repairRate>` leaves alone, in radii of the smaller sphere of the contact [-], ≥ 0. Default 1e-5: contacts at rest stay closed instead of opening and closing by round-off. A negative value raises ValueError."))
-		((Real,remainingOverlap,0,Attr::readonly,"Largest overlap expected at the end of the last step, after repair [m], ≥ 0: gap at its start plus way along the normal."))
-		((Real,repairDisplacement,0,Attr::readonly,"Largest displacement of a body by penetration repair in the last step [m]; at most 1e-2 of the smallest radius."))
+		((Real,repairRate,0.1,Attr::triggerPostLoad,"Share of the overlap beyond :yref:`allowedOverlap<ContactDynamicsEngine.allowedOverlap>` that penetration repair takes away in a step [-], 0 … 1, all overlaps in the same proportion: so much that the deepest one shrinks by 1e-4 of its contact's size, but at least 0.006 and at most this rate. "
+			"Overlaps, left by the residual of the solve or by a packing made with a soft law, are removed by displacing the bodies (pseudo-velocities from a frictionless contact problem in which loaded contacts stay closed; true masses, no rotation, blocked translations kept); velocities and impulses do not change, so no kinetic energy comes from it. What bodies gain in weight times height is ``contactRepair`` in ``O.energy``. "
+			"Default 0.1: gentle enough that supported grains stay supported, for a few percent of the time of a step with overlaps. 0 switches it off; then overlaps stay as they are. A value outside raises ValueError. A step without overlaps is the same, bit for bit, with and without repair."))
+		((Real,allowedOverlap,1e-5,Attr::triggerPostLoad,"Overlap that :yref:`repairRate<ContactDynamicsEngine.repairRate>` leaves alone, in sizes of the contact [-], ≥ 0: the radius of the smaller sphere, the shorter lever arm where there is no sphere. Deeper ones are brought to half of it. Default 1e-5: contacts at rest stay closed instead of opening and closing by round-off. A negative value raises ValueError."))
+		((Real,remainingOverlap,0,Attr::readonly,"Largest overlap left at the end of the last step, after repair [m], ≥ 0; an overlap counts that is there at the start of the step and that its motion does not remove."))
+		((Real,repairDisplacement,0,Attr::readonly,"Largest displacement of a body by penetration repair in the last step [m]; at most 1e-2 of the smallest size of a contact."))
 		((Real,impulseTimeStep,0,(Attr::readonly|Attr::hidden),"Time step of the impulses stored with the contacts [s]."))
 		((Real,elasticEnergy,0,(Attr::readonly|Attr::hidden),"Elastic energy of compliant contacts after the last step with O.trackEnergy [J]."))
 		,
@@ -86,6 +89,10 @@ public:
 		.def("lastProblem",&ContactDynamicsEngine::lastProblem,"The contact problem of the last step with its solution, as a dictionary: u = W r + q, per contact 0 ≤ u_N ⟂ r_N ≥ 0 and Coulomb's law. ``dimension`` 3; W [1/kg] by rows of 3×3 blocks: those of row i are rowStart[i] … rowStart[i+1]−1 of ``column`` and ``blocks`` (nine numbers each, row by row); "
 			"``q`` [m/s] relative velocity without impulses, gap velocity max(0,g)/h (by contactLaw) added to its normal component; ``friction`` [-]; ``impulse`` r [N·s] and ``velocity`` u [m/s] of the solution, three numbers a contact in the frame of :yref:`ContactDynamicsPhys.localVelocity`, normal first; ``bodies`` the two ids of each contact (the clump of a member). "
 			"W is assembled by this call. ``contactdynamics.fclib.write`` puts it into a file. RuntimeError when no step has been solved.")
+		.def("convergenceNorms",&ContactDynamicsEngine::convergenceNorms,"What other programs and papers call the error, at the solution of the last step, as a dictionary of numbers [-]; none steers the solver, and W is assembled by this call. With u = W r + q as in :yref:`lastProblem<ContactDynamicsEngine.lastProblem>`, ΔR the change of a contact's impulse R by one more exact local solution with all others held, ΔV = W_cc ΔR, "
+			"sums and means over the ``active`` contacts (an impulse before or after): ``naturalMap`` the :yref:`residual<ContactDynamicsEngine.residual>` once more, from the assembled W; ``siconos`` √Σ|r − P(r − u − μ|u_T|n)|² / max(|q|, |r|, |u|), which adds impulses and velocities and so depends on units; ``quadDV`` √mean|ΔV|² / √mean|W_cc R|², "
+			"``quadDVR`` √mean(|ΔV|²|R|²) / mean(R·W_cc R), ``meanDVoR`` Σ R·ΔV / Σ R·W_cc R: the norm Quad of LMGC90, which stops when all three are below its tolerance in magnitude; ``quadraticAccuracy`` √(Σ|ΔR|² / Σ|R|²) and ``largestAccuracy`` max|ΔR| / √mean|R|²: the quadratic and the max distance of section 8, in which the accuracy of 0.15 % in section 9.1 is read "
+			"(the paper gives no formula). RuntimeError when no step has been solved.")
 	);
 	// clang-format on
 private:

@@ -41,7 +41,8 @@ public:
 		((Real,twistingArm,0,,"Largest twisting torque over normal force [m], ≥ 0."))
 		((Vector3r,torqueImpulse,Vector3r::Zero(),Attr::readonly,"Impulse of rolling and twisting friction in the last step on body 2 (body 1 receives the opposite), global axes [N·m·s]. Saved: the next step starts from it."))
 		((Vector3r,stretch,Vector3r::Zero(),Attr::readonly,"Elastic tangential displacement of a contact with ks, body 2 relative to body 1, global axes [m]."))
-		((Vector3r,stretchRate,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Rate of the stretch in the last step [m/s].")),
+		((Vector3r,stretchRate,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Rate of the stretch in the last step [m/s]."))
+		((Real,pseudoImpulse,0,(Attr::readonly|Attr::hidden),"Pseudo-impulse of penetration repair in the last step over the largest displacement asked for [kg]; the next one starts from it.")),
 		createIndex()
 	);
 	// clang-format on

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsStep.hpp"
 #include "ContactDynamicsPhys.hpp"
-#include "FacetEdges.hpp"
 #include "LocalFrame.hpp"
 #include "ParallelLoop.hpp"
 #include <core/Cell.hpp>
@@ -10,7 +9,6 @@
 #include <core/InteractionContainer.hpp>
 #include <core/Scene.hpp>
 #include <omp.h>
-#include <pkg/common/Facet.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
 #include <algorithm>
@@ -61,6 +59,7 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 {
 	solved = false;
 	h = plan.h;
+	gravity = plan.gravity;
 	velGrad = plan.velGrad;
 	displacementAsVelocity = plan.velocityOfDisplacement();
 	const long count = static_cast<long>(scene.bodies->size());
@@ -106,10 +105,7 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 				throw std::runtime_error("body #" + std::to_string(id) + " is a member of clump #" + std::to_string(body->clumpId) +
 										 ", which does not exist (any more).");
 		}
-		if (const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get()))
-			view.radius = sphere->radius;
-		else
-			view.facet = dynamic_cast<const Facet*>(body->shape.get());
+		if (const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get())) view.radius = sphere->radius;
 		view.fixed = immobile(motions[view.index]);
 		view.ball = view.fixed || (view.radius > 0 && !view.member && isotropic(motions[view.index]));
 	});
@@ -132,27 +128,6 @@ void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 	for (const auto& ofThread : gathered)
 		for (Interaction* interaction : ofThread)
 			links.push_back({interaction, contactDynamicsPhys(*interaction), false, true, Vector3r::Zero(), Vector3r::Zero(), 0});
-}
-
-void ContactDynamicsStep::dropDoubledFacetContacts(const Scene& scene)
-{
-	std::vector<FacetContact> contacts;
-	std::vector<Link*> ofContact;
-	for (Link& link : links) {
-		const Interaction& interaction = *link.interaction;
-		const BodyView& view = views[interaction.getId1()];
-		if (!view.facet) continue;
-		const ScGeom& geom = static_cast<const ScGeom&>(*interaction.geom);
-		Vector3r origin = view.state->pos - views[interaction.getId2()].state->pos;
-		if (scene.isPeriodic) origin -= scene.cell->hSize * interaction.cellDist.cast<Real>();
-		const auto corner = [&](int i) { return Vector3r(origin + view.state->ori * view.facet->vertices[i]); };
-		contacts.push_back(
-				{interaction.getId2(), interaction.getId1(), -(geom.refR2 - geom.penetrationDepth) * geom.normal, {corner(0), corner(1), corner(2)}});
-		ofContact.push_back(&link);
-	}
-	const std::vector<char> doubled = doubledFacetContacts(contacts);
-	for (std::size_t i = 0; i < doubled.size(); i++)
-		if (doubled[i]) ofContact[i]->solved = false;
 }
 
 void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const
@@ -243,7 +218,7 @@ void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string&
 {
 	const bool velocitySignorini = contactLaw == "velocitySignorini", quasiInelasticShock = contactLaw == "quasiInelasticShock";
 	gatherInteractions(scene);
-	dropDoubledFacetContacts(scene);
+	settleSurfaceSeams(scene);
 	problem.contacts.resize(links.size());
 	parallelLoop(static_cast<long>(links.size()), [&](long i) {
 		Link& link = links[i];
@@ -292,13 +267,15 @@ void ContactDynamicsStep::leaveOut(Link& link)
 	link.phys->normalForce = Vector3r::Zero();
 	link.phys->shearForce = Vector3r::Zero();
 	link.phys->localVelocity = Vector3r::Zero();
+	link.phys->pseudoImpulse = 0;
 }
 
-contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxIterations)
+contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxIterations, bool accelerated)
 {
 	contactdynamics::SolverOptions options;
 	options.tolerance = tolerance;
 	options.maxIterations = maxIterations;
+	if (!accelerated) options.acceleration = contactdynamics::Acceleration::none;
 	options.threads = omp_get_max_threads();
 	if (problem.meanField) toMeanField();
 	const auto report = rolling.empty() ? solver.solve(problem, options) : rolling.solve(solver, problem, options);

@@ -7,6 +7,7 @@
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
 #include <optional>
+#include <pkg/solver/BlockProblem.hpp>
 #include <pkg/solver/SignoriniCoulombSolver.hpp>
 #include <string>
 #include <vector>
@@ -14,9 +15,9 @@
 namespace yade {
 
 class ContactDynamicsPhys;
-class Facet;
 class Interaction;
 class Scene;
+struct SurfaceContact;
 
 /// One step of ContactDynamicsEngine in flat arrays: the scene is gathered once, solved, and scattered once.
 /// Bodies and contacts are ordered by id, so the problem does not depend on threads or on the order in which YADE met the pairs.
@@ -26,13 +27,14 @@ struct ContactDynamicsStep {
 	};
 
 	contactdynamics::GrainProblem problem;
-	std::vector<Twist> free; // free velocities by solver index
-	PenetrationRepair repair;
-	int planeAxis = -1;		  // normal to the plane of a two-dimensional scene, see PlaneOfMotion
-	int activeContacts = 0;	  // of the last apply()
-	Real maxPenetration = 0;  // [m]
-	Real meanPenetration = 0; // [m], mean over the active contacts
-	Real elasticEnergy = 0;	  // of compliant contacts [J], while O.trackEnergy
+	std::vector<Twist> free;	 // free velocities by solver index
+	int planeAxis = -1;			 // normal to the plane of a two-dimensional scene, see PlaneOfMotion
+	int activeContacts = 0;		 // of the last apply()
+	Real maxPenetration = 0;	 // [m]
+	Real meanPenetration = 0;	 // [m], mean over the active contacts
+	Real elasticEnergy = 0;		 // of compliant contacts [J], while O.trackEnergy
+	Real remainingOverlap = 0;	 // largest at the end of the step, repair included [m]
+	Real repairDisplacement = 0; // largest of a body [m]
 
 	void collectBodies(Scene& scene, const IntegratorPlan& plan);
 	/// @param warmStart  factor for the stored impulses: ratio of time steps, or 0 to start from nothing
@@ -41,23 +43,25 @@ struct ContactDynamicsStep {
 	void usePlane();
 	/// After collectBodies(): the periodic cell has inertia and moves with the contacts. The velocities collected hold the gradient of the field.
 	void useMeanField(const contactdynamics::MeanField& field, const IntegratorPlan& plan);
-	contactdynamics::SolveReport solve(Real tolerance, int maxIterations);
+	contactdynamics::SolveReport solve(Real tolerance, int maxIterations, bool accelerated);
 	/// After apply(): what the contacts sustain, Σ r ⊗ b over them (impulse on body 2, vector from mass centre 1 to 2) [N m s].
 	Matrix3r moment() const;
 	void apply(Scene& scene);
-	/// After apply(): displaces bodies that overlap, see PenetrationRepair; a rate of 0 only measures.
+	/// After apply(): displaces bodies that overlap, see PenetrationRepair.
+	/// @param rate     largest share of an overlap that is taken away [-], 0 ... 1; 0 only measures
+	/// @param allowed  overlap that is left alone, in sizes of the contact [-], >= 0
 	void repairPenetration(Scene& scene, Real rate, Real allowed);
 
 	std::vector<Twist> end() const; // velocities at the end of the step by solver index
 	boost::python::list velocitiesById(const std::vector<Twist>& twists) const;
 	boost::python::list angularMomentaById() const;
-	boost::python::dict asDictionary() const; // see ContactDynamicsEngine.lastProblem
+	boost::python::dict asDictionary() const;	   // see ContactDynamicsEngine.lastProblem
+	boost::python::dict normsAsDictionary() const; // see ContactDynamicsEngine.convergenceNorms
 
 private:
 	/// What the contacts need of a body, looked up once a step instead of once a contact.
 	struct BodyView {
 		const State* state = nullptr; // null: erased
-		const Facet* facet = nullptr; // null: no facet
 		Real radius = 0;			  // 0: no sphere [m]
 		int index = -1;				  // into problem.bodies; that of the clump for a member
 		bool member = false;		  // of a clump
@@ -78,8 +82,10 @@ private:
 		Vector3r force, torque;
 	};
 
+	contactdynamics::BlockProblem assembledProblem(const char* caller) const;
 	void gatherInteractions(const Scene& scene);
-	void dropDoubledFacetContacts(const Scene& scene);
+	void settleSurfaceSeams(const Scene& scene);
+	static void passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts);
 	void describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const;
 	void requireUsable(const Link& link, const contactdynamics::Contact& contact) const;
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;
@@ -91,16 +97,21 @@ private:
 	void toMeanField();
 	void fromMeanField();
 	void trackEnergy(Scene& scene);
+	Real powerOnPrescribed(int index, const Vector3r& force, const Vector3r& torque) const;
 	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
 	static void leaveOut(Link& link);
-	Real radiusOf(const Link& link) const;
+	Real sizeOf(std::size_t contact) const;
+	Real gapToRepair(std::size_t contact) const;
+	void displace(Scene& scene, Real share, Real allowed);
 
 	bool solved = false; // problem holds a solution
 	Real h = 0;
-	Matrix3r velGrad;								  // that the integrator will apply, for the velocity of periodic images
-	Matrix3r displacementAsVelocity;				  // see IntegratorPlan::velocityOfDisplacement [1/s]
-	std::vector<PenetrationRepair::Overlap> overlaps; // parallel to links
-	std::vector<BodyView> views;					  // by body id
+	Vector3r gravity;
+	Matrix3r velGrad;				 // that the integrator will apply, for the velocity of periodic images
+	Matrix3r displacementAsVelocity; // see IntegratorPlan::velocityOfDisplacement [1/s]
+	PenetrationRepair repair;
+	std::vector<PenetrationRepair::Candidate> candidates; // of the repair
+	std::vector<BodyView> views;						  // by body id
 	std::vector<int> idOfIndex;
 	std::vector<FreeMotion> motions;				 // by solver index
 	std::vector<Vector3r> places;					 // likewise, where there is a mean field: positions [m]

@@ -47,6 +47,20 @@ boost::python::list ContactDynamicsStep::angularMomentaById() const
 	return byId;
 }
 
+/// What a force on the body (and a torque about its mass centre) gives to the degrees of freedom that are blocked, whose velocity is prescribed [W].
+Real ContactDynamicsStep::powerOnPrescribed(int index, const Vector3r& force, const Vector3r& torque) const
+{
+	const FreeMotion& motion = motions[index];
+	const Twist start = atStart(index);
+	const auto& end = problem.bodies[index];
+	Real power = 0;
+	for (int axis = 0; axis < 3; axis++) {
+		if (motion.inverseMass[axis] == 0) power += 0.5 * force[axis] * (start.velocity[axis] + end.velocity[axis]);
+		if (motion.inverseInertia(axis, axis) == 0) power += 0.5 * torque[axis] * (start.angularVelocity[axis] + end.angularVelocity[axis]);
+	}
+	return power;
+}
+
 void ContactDynamicsStep::trackEnergy(Scene& scene)
 {
 	ContactEnergy energy;
@@ -61,6 +75,12 @@ void ContactDynamicsStep::trackEnergy(Scene& scene)
 		const int one = problem.contacts[row.contact].body1, two = problem.contacts[row.contact].body2;
 		const auto spin = [&](int index) { return Vector3r(0.5 * (atStart(index).angularVelocity + problem.bodies[index].angularVelocity)); };
 		energy.addRolling(row.impulse, spin(two) - spin(one));
+	}
+	for (std::size_t id = 0; id < loads.size(); id++) { // loads refer to the positions of the bodies, those of clump members to their own
+		const BodyView& view = views[id];
+		if (!view.state) continue;
+		const Vector3r toCentre = view.state->pos - views[idOfIndex[view.index]].state->pos;
+		energy.addBoundary(h * powerOnPrescribed(view.index, loads[id].force, loads[id].torque + toCentre.cross(loads[id].force)));
 	}
 	elasticEnergy = energy.report(*scene.energy, elasticEnergy);
 }

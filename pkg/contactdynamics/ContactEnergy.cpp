@@ -5,6 +5,13 @@
 #include <algorithm>
 
 namespace yade {
+namespace {
+void addTo(EnergyTracker& tracker, const char* name, Real value, bool ofNow = false)
+{
+	int place = -1; // looked up by name: a remembered place would be wrong after O.energy.clear() or O.load()
+	tracker.add(value, name, place, ofNow);
+}
+} // namespace
 
 void ContactEnergy::add(const ContactDynamicsPhys& phys, const Vector3r& normal, const Vector3r& impulse, const Vector3r& start, const Vector3r& end,
 						Real gap, bool isImpact, bool bonded)
@@ -23,17 +30,23 @@ void ContactEnergy::addStretch(const ContactDynamicsPhys& phys, Real timeStep)
 	if (phys.ks > 0) stored += 0.5 * phys.ks * (phys.stretch - 0.5 * timeStep * phys.stretchRate).squaredNorm();
 }
 
+void ContactEnergy::reportRepair(EnergyTracker& tracker, Real work, Real workOfGravity)
+{
+	addTo(tracker, "contactRepair", work);
+	if (workOfGravity != 0) addTo(tracker, "gravWork", -workOfGravity);
+}
+
 Real ContactEnergy::report(EnergyTracker& tracker, Real storedBefore) const
 {
 	const auto tell = [&](const char* name, Real value, bool ofNow = false) {
-		int place = -1; // looked up by name: a remembered place would be wrong after O.energy.clear() or O.load()
-		if (value != 0 || ofNow) tracker.add(value, name, place, ofNow);
+		if (value != 0 || ofNow) addTo(tracker, name, value, ofNow);
 	};
 	tell("contactFriction", friction);
 	tell("contactRolling", rolling);
 	tell("contactImpact", impact);
 	tell("contactRestitution", restitution);
 	tell("contactCohesion", cohesion);
+	tell("contactBoundary", boundary);
 	if (stored != 0 || storedBefore != 0) tell("contactElastic", stored, true);
 	tell("contactDamping", compliant - (stored - storedBefore));
 	return stored;

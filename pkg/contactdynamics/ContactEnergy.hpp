@@ -21,11 +21,17 @@ public:
 	/// @param torque  impulse on body 2 [N m s];  @param spin  mean relative angular velocity [rad/s]
 	void addRolling(const Vector3r& torque, const Vector3r& spin) { rolling -= torque.dot(spin); }
 
+	/// @param taken  what an impulse gives to a motion that is prescribed, so that it is lost to the free bodies [J]
+	void addBoundary(Real taken) { boundary += taken; }
+
 	/// Hands the terms to O.energy. `storedBefore` is the elastic energy after the step before; returns that of now [J].
 	Real report(EnergyTracker& tracker, Real storedBefore) const;
+	/// Repair displaces bodies against the external forces: `work` of all of them, `workOfGravity` of gravity alone [J]. The latter is part of YADE's
+	/// own gravWork, which counts displacements by velocity only.
+	static void reportRepair(EnergyTracker& tracker, Real work, Real workOfGravity);
 
 private:
-	Real friction = 0, rolling = 0, impact = 0, restitution = 0, cohesion = 0, compliant = 0, stored = 0;
+	Real friction = 0, rolling = 0, impact = 0, restitution = 0, cohesion = 0, compliant = 0, stored = 0, boundary = 0;
 };
 
 } // namespace yade

@@ -11,13 +11,13 @@ struct Report {
 	std::pair<int, int> ids;
 	std::string message;
 };
-std::mutex guard;
+std::mutex reportsGuard;
 std::map<const Scene*, Report> reports; // almost always empty
 } // namespace
 
 void DeferredError::report(const Scene* scene, int id1, int id2, const std::string& message)
 {
-	const std::lock_guard<std::mutex> lock(guard);
+	const std::lock_guard<std::mutex> lock(reportsGuard);
 	const std::pair<int, int> ids(id1, id2);
 	const auto known = reports.find(scene);
 	if (known == reports.end())
@@ -28,7 +28,7 @@ void DeferredError::report(const Scene* scene, int id1, int id2, const std::stri
 
 void DeferredError::raise(const Scene* scene)
 {
-	const std::lock_guard<std::mutex> lock(guard);
+	const std::lock_guard<std::mutex> lock(reportsGuard);
 	const auto known = reports.find(scene);
 	if (known == reports.end()) return;
 	const std::string message = known->second.message;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "EngineOrder.hpp"
 #include "ContactDynamicsCellController.hpp"
+#include <core/PartialEngine.hpp>
 #include <core/Scene.hpp>
+#include <pkg/common/FieldApplier.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <algorithm>
 #include <sstream>
@@ -13,6 +15,12 @@ void require(bool fulfilled, const std::string& message)
 {
 	if (!fulfilled) throw std::runtime_error("ContactDynamicsEngine: " + message + " contactdynamics.engines() returns a list in the right order.");
 }
+/// Engines that add forces or set velocities of some bodies or all: KinematicEngine, ForceEngine, GravityEngine and their kin.
+bool actsOnBodies(const Engine& engine)
+{
+	if (dynamic_cast<const NewtonIntegrator*>(&engine)) return false;
+	return dynamic_cast<const PartialEngine*>(&engine) || dynamic_cast<const FieldApplier*>(&engine);
+}
 } // namespace
 
 const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& engine)
@@ -20,6 +28,7 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 	const NewtonIntegrator* newton = nullptr;
 	bool resetBefore = false, loopBefore = false, passed = false, newtonBehind = false;
 	int integrators = 0;
+	std::string intruder; // between this engine and the integrator
 	for (const auto& other : scene.engines) {
 		if (other.get() == &engine) {
 			passed = true;
@@ -31,6 +40,10 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 				"there are two of them in O.engines; one engine solves all contacts of the scene. Remove one or set it dead.");
 		require(name != "GlobalStiffnessTimeStepper", "GlobalStiffnessTimeStepper stands in O.engines, but rigid contacts have no stiffness to take "
 													  "a time step from. Remove it and set O.dt.");
+		if (passed && !newtonBehind && intruder.empty() && actsOnBodies(*other)) intruder = name;
+		require(name != "ServoPIDController" || passed || !resetBefore, "ServoPIDController stands behind ForceResetter and before this engine in "
+																		"O.engines, where there are no contact forces yet that it could follow. "
+																		"Put it behind NewtonIntegrator.");
 		if (name == "ForceResetter") resetBefore |= !passed;
 		if (name == "InteractionLoop") loopBefore |= !passed;
 		require(name != "ContactDynamicsTriaxialController" || !passed,
@@ -44,6 +57,9 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 	require(integrators > 0, "there is no (live) NewtonIntegrator in O.engines; put NewtonIntegrator(damping=0) behind this engine.");
 	require(integrators == 1, "there are " + std::to_string(integrators) + " live NewtonIntegrators in O.engines; exactly one may move the bodies.");
 	require(newtonBehind, "NewtonIntegrator stands before this engine in O.engines, so the contact forces would not act; put it behind.");
+	require(intruder.empty(), intruder + " stands between this engine and NewtonIntegrator in O.engines, where the forces it adds or the velocities "
+										 "it sets would spoil the solution. "
+										 "Put it before this engine or behind NewtonIntegrator.");
 	require(resetBefore, "no ForceResetter stands before this engine in O.engines, so forces of past steps would add up; make it the first engine.");
 	require(loopBefore,
 			"no InteractionLoop stands before this engine in O.engines, so there are no contacts to solve; put it between collider and engine.");

@@ -9,8 +9,9 @@ class NewtonIntegrator;
 class Scene;
 
 /// The NewtonIntegrator that will turn the forces of `engine` into motion, after checking that O.engines makes a Contact Dynamics step:
-/// ForceResetter and InteractionLoop before the engine, exactly one live NewtonIntegrator, behind it and without damping; no second
-/// Contact Dynamics engine; no GlobalStiffnessTimeStepper (rigid contacts have no stiffness to take a time step from).
+/// ForceResetter and InteractionLoop before the engine, exactly one live NewtonIntegrator, behind it and without damping; nothing
+/// between the two that adds forces or sets velocities; ServoPIDController where it sees contact forces; no second Contact Dynamics engine; no
+/// GlobalStiffnessTimeStepper (rigid contacts have no stiffness to take a time step from).
 /// @throws std::runtime_error  naming what is missing or misplaced and how to mend it
 const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& engine);
 

@@ -51,6 +51,7 @@ FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, con
 	if (body.isDynamic()) {
 		const Real scaling = plan.densityScaling ? state.densityScaling : 1;
 		requirePositiveScaling(body, scaling);
+		free.load = force + state.mass * plan.gravity;
 		Vector3r acceleration = Vector3r::Zero();
 		for (int axis = 0; axis < 3; axis++) {
 			if (state.blockedDOFs & State::axisDOF(axis, false)) continue;

@@ -38,6 +38,7 @@ struct FreeMotion {
 	Vector3r angularMomentum = Vector3r::Zero(); // of aspherical bodies [kg m2/s]; zero otherwise
 	Vector3r inverseMass = Vector3r::Zero();	 // per global axis [1/kg]
 	Matrix3r inverseInertia = Matrix3r::Zero();	 // global axes [1/(kg m2)]
+	Vector3r load = Vector3r::Zero();			 // external force, gravity included [N]
 	bool moved = true;							 // false: the integrator leaves the body alone (mask, other subdomain)
 	bool aspherical = false;					 // integrated in angularMomentum
 };

@@ -1,52 +1,66 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <lib/base/Math.hpp>
-#include <pkg/solver/SignoriniCoulombSolver.hpp>
+#include <pkg/solver/GrainProblem.hpp>
 #include <vector>
 
 namespace yade {
 
-/// Removes overlaps by moving bodies, not by pushing them: the displacements d = M^-1 H p of frictionless pseudo-impulses p with
+/// Removes overlaps by moving bodies, not by pushing them: the displacements d = M^-1 H p of frictionless pseudo-impulses p [kg m] with
 ///
-///     0 <= d_N + s _|_ p_N + c >= 0,   s = g+          where g+ = gap at the end of the step + allowed overlap is >= 0: the room that is left,
-///                                      s = share g+    where it is < 0: all overlaps shrink by the same share in a step.
+///     0 <= d_N + s _|_ p_N >= 0,   s = room           where room = gap + half the allowed overlap is >= 0
+///                                  s = share room     where it is < 0: all overlaps shrink by the same share in a step.
 ///
 /// Nothing of it enters a velocity, so that no overlap, however large, becomes kinetic energy; with the true masses, a free cluster keeps its mass
 /// centre. A push through the velocity, as `signorini` (24) makes it, was rejected for the repair because of that energy. Bodies are moved without
 /// being turned: a turn would change the lever arms and the inertia tensor for which the contact problem has just been solved, and a translation
-/// parts any two bodies.
+/// parts any two bodies, whatever their shape and in however many points they touch.
 ///
-/// c > 0 at contacts that carry an impulse (0 elsewhere) lets them pull, so that they stay closed while their neighbours move: without it, contacts
-/// of a packing open, lose their reaction, and the grains they held fall. The solver knows no c; it gets p + c as unknown and the bodies displaced by
-/// -M^-1 H c.
+/// A contact that carries a reaction (loaded) opens only against a pull, d_N + s = -gamma W p for p < 0, s <= 0: without it, contacts of a packing
+/// open, lose their reaction, and the grains they held fall. The pull yields, because in a packing with more contacts than degrees of freedom not all
+/// can keep their distance. Rejected: a pull up to a fixed strength, which the solution reaches at exactly those contacts, after hundreds of sweeps;
+/// friction in the displacements (a grain wedged by friction loses its hold just the same when 1 % of overlap leaves the packing).
+///
+/// A few sweeps a step are enough, from the pseudo-impulses of the step before: what is left is overlap or gap, never energy, and its turn comes.
+/// They are stored over the largest displacement asked for, because all displacements shrink in proportion.
 class PenetrationRepair {
 public:
 	/// What the repair needs to know of a contact beside the solved problem.
-	struct Overlap {
-		Real gap;	 // at the start of the step [m]
-		Real radius; // of the smaller sphere, the measure of what is small [m]; 0: leave this contact alone
+	struct Candidate {
+		int contact;		// index into the contacts of the problem
+		Real gap;			// the larger one of those at the start and at the end of the step: an overlap that the motion removes is none [m]
+		Real size;			// what an overlap is measured against [m]
+		Real pseudoImpulse; // in: of the step before, out: of this step; over the largest displacement asked for [kg]
 	};
 
-	/// @param solved    the contact problem after the solve: mobilities, normals, and the velocities that are about to move the bodies by h U
-	/// @param overlaps  parallel to solved.contacts
-	/// @param rate      largest share of the overlap beyond the allowed one that is taken away [-], 0 … 1; 0 only measures
-	/// @param allowed   overlap that is left alone, in radii [-], >= 0
-	/// @return          whether any body is to be moved
-	bool solve(const contactdynamics::GrainProblem& solved, const std::vector<Overlap>& overlaps, Real h, Real rate, Real allowed, int threads);
+	/// @param solved      the contact problem after the solve: mobilities, normals, and which contacts carry an impulse
+	/// @param candidates  all contacts that the displacements might close; those that are left out are not looked after
+	/// @param share       of the room beyond the allowed overlap that is taken away [-], 0 ... 1
+	/// @param allowed     overlap that is left alone, in sizes [-], >= 0
+	void solve(const contactdynamics::GrainProblem& solved, std::vector<Candidate>& candidates, Real share, Real allowed);
 
-	Vector3r displacement(int body) const { return problem.bodies[body].velocity; } // by solver index [m]; after solve() has returned true
-	Real remainingOverlap() const { return remaining; }								// largest at the end of the step, repair included [m]
-	Real largestDisplacement() const { return largest; }							// [m]
+	const Vector3r& displacement(int body) const { return displacements[body]; } // by solver index [m]
+	Real largestDisplacement() const { return largest; }						 // [m]
+	Real remainingOverlap(const std::vector<Candidate>& candidates) const;		 // largest, at the end of the step [m]
+
+	/// Largest displacement of a body in a step, in the smallest size: a fifth of the least proximity margin, so that no contact comes unseen.
+	static constexpr Real largestWay = 1e-2;
 
 private:
-	contactdynamics::GrainProblem problem; // displacements [m] in the place of velocities
-	std::vector<Real> gapAtEnd;			   // without repair [m]
-	contactdynamics::SignoriniCoulombSolver solver;
-	Real remaining = 0, largest = 0;
-	Real smallestRadius = 0, deepest = 0; // deepest overlap in radii
+	struct Row {
+		int body1, body2;
+		Vector3r normal;
+		Real target;   // -s [m]
+		Real weight;   // 1 / W [kg]
+		Real yielding; // of the pull: p < 0 shrinks by this factor; 0: no pull
+	};
+	std::vector<Row> rows; // parallel to the candidates
+	std::vector<Vector3r> displacements, mobilities;
+	Real largest = 0;
 
-	bool measure(const contactdynamics::GrainProblem& solved, const std::vector<Overlap>& overlaps, Real h, Real allowed);
-	void letPull(contactdynamics::Contact& contact, Real displacement);
+	Row describe(const contactdynamics::Contact& contact, const Candidate& candidate, Real share, Real allowed) const;
+	void move(const Row& row, Real pseudoImpulse);
+	Real visit(const Row& row, Real& pseudoImpulse);
 	void limit(Real allowedDisplacement);
 };
 

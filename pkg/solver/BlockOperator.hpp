@@ -3,10 +3,13 @@
 
 #include "BallPack.hpp"
 #include "BlockProblem.hpp"
+#include "BlockRows.hpp"
+#include "CrushedContacts.hpp"
 #include "NaturalMap.hpp"
 #include "OneContact.hpp"
 #include "OneContact2D.hpp"
 
+#include <algorithm>
 #include <type_traits>
 
 namespace contactdynamics {
@@ -18,170 +21,223 @@ public:
 	using Block = Eigen::Matrix<double, D, D>;
 	using Tangent = Eigen::Matrix<double, D - 1, 1>;
 	using Local = std::conditional_t<D == 2, OneContact2D, OneContact>;
-	static constexpr int firstCheck = 5; ///< gauges the increments against a measure they need not resemble
 
-	BlockOperator(BlockProblem& given, Measure measureOfResidual) : problem(given), measure(measureOfResidual)
+	/// A certificate gauges the increments against a measure they need not resemble; early where that costs nothing.
+	const int firstCheck;
+
+	/// Starts from the impulses of the problem, brought into their cones.
+	BlockOperator(BlockProblem& given, Measure measureOfResidual)
+		: firstCheck(given.contacts() < 20 ? 1 : 5), problem(given), measure(measureOfResidual),
+		  product(selectBlockProduct<D>()), rows{given.rowStart.data(), given.column.data(), given.blocks.data(), given.q.data()},
+		  lanes(given.contacts())
 	{
-		const std::size_t count = problem.contacts();
-		diagonal.resize(count);
-		impulse.resize(count);
-		increment.assign(count, Vector::Zero());
-		direction.assign(count, Vector::Zero());
-		for (std::size_t i = 0; i < count; ++i) {
-			for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k)
-				if (std::size_t(problem.column[k]) == i) diagonal[i] = block(k);
-			// The visit works with the increments of u, so that a symmetric local operator leaves the solution of the whole as it is.
-			diagonal[i] = 0.5 * (diagonal[i] + diagonal[i].transpose()).eval();
-			impulse[i] = projected({problem.impulse[D * i], at(problem.impulse, i).template tail<D - 1>()}, problem.friction[i]);
-		}
+		start();
 	}
 
-	bool anyAwake() const { return !impulse.empty(); }
+	void start()
+	{
+		atZero = std::all_of(problem.impulse.begin(), problem.impulse.end(), [](double r) { return r == 0; });
+		if (atZero)
+			std::fill(lanes.begin(), lanes.end(), ImpulseLanes());
+		else
+			for (std::size_t i = 0; i < lanes.size(); ++i) put(i, projected(at(problem.impulse, i), problem.friction[i]));
+	}
+
+	bool anyAwake() const { return !lanes.empty(); }
 	bool mend() { return false; }
 
 	SweepNorms sweep(Extrapolation by)
 	{
 		prepare();
+		if (by.relax != 0 || by.momentum != 0) {
+			for (std::size_t i = 0; i < lanes.size(); ++i) {
+				const Vector ahead = by.relax * visited[i].increment + by.momentum * visited[i].direction;
+				visited[i].direction = visited[i].increment + ahead;
+				put(i, impulse(i) + ahead);
+			}
+		} else
+			for (Visited& contact : visited) contact.direction = contact.increment;
+		atZero = false;
 		SweepNorms norms;
-		for (std::size_t i = 0; i < impulse.size(); ++i) {
-			const Vector ahead = by.relax * increment[i] + by.momentum * direction[i];
-			direction[i] = increment[i] + ahead;
-			impulse[i] += ahead;
-		}
-		for (std::size_t i = 0; i < impulse.size(); ++i) {
-			const Vector r = local[i].solve(velocityAt(i) - diagonal[i] * impulse[i], problem.friction[i]);
-			increment[i] = r - impulse[i];
-			impulse[i] = r;
-			norms.increment2 += increment[i].dot(diagonal[i] * increment[i]);
-			norms.impulse2 += r.dot(diagonal[i] * r);
+		for (std::size_t i = 0; i < lanes.size(); ++i) {
+			Visited& contact = visited[i];
+			const Vector x = impulse(i), r = contact.visit(x, velocityAt(i), problem.friction[i]);
+			contact.increment = r - x;
+			if (r[0] == 0 && contact.increment[0] == 0) continue; // stays open
+			put(i, r);
+			norms.increment2 += contact.increment.dot(contact.W * contact.increment);
+			norms.impulse2 += r.dot(contact.W * r);
 		}
 		return norms;
 	}
 
-	double certificate() const
+	double certificate()
 	{
+		if (measure == Measure::naturalMap) prepare();
 		ResidualSum relative;
 		double error2 = 0, q2 = 0, r2 = 0, u2 = 0;
-		for (std::size_t i = 0; i < impulse.size(); ++i) {
-			const Vector u = velocityAt(i), q = at(problem.q, i), &r = impulse[i];
-			const double mu = problem.friction[i], Wnn = diagonal[i](0, 0);
-			const Split<Tangent> rSplit{r[0], r.template tail<D - 1>()}, uSplit{u[0], u.template tail<D - 1>()};
+		for (std::size_t i = 0; i < lanes.size(); ++i) {
+			const Vector u = velocityAt(i), q = at(problem.q, i), r = impulse(i);
+			const double mu = problem.friction[i];
 			if (measure == Measure::siconos) {
-				const auto F = naturalMap<Tangent>(rSplit, uSplit, mu, 1, 0);
-				error2 += F.n * F.n + F.t.squaredNorm();
+				if (r[0] != 0 || u[0] < 0) {
+					const auto F = naturalMap<Tangent>(split(r), split(u), mu, 1, 0);
+					error2 += F.n * F.n + F.t.squaredNorm();
+				}
 				q2 += q.squaredNorm();
 				r2 += r.squaredNorm();
 				u2 += u.squaredNorm();
-			} else if (Wnn > 0) {
-				const auto F = naturalMap<Tangent>(rSplit, uSplit, mu, Wnn, q.norm() + (u - q).norm());
+			} else if (const double Wnn = visited[i].W(0, 0); Wnn > 0) {
+				const auto F = naturalMap<Tangent>(split(r), split(u), mu, Wnn, q.norm() + (u - q).norm());
 				Vector f;
 				f << F.n, F.t;
-				relative.add(f.dot(diagonal[i] * f), r.dot(diagonal[i] * r));
+				relative.add(f.dot(visited[i].W * f), r.dot(visited[i].W * r));
 			}
 		}
-		if (measure != Measure::siconos) return relative.value();
+		if (measure == Measure::naturalMap) return relative.value();
 		const double scale = std::sqrt(std::max({q2, r2, u2}));
 		return scale > 2.2e-16 ? std::sqrt(error2) / scale : std::sqrt(error2);
 	}
 
 	void finish(SolveReport& report)
 	{
-		if constexpr (D == 2) prepare();
 		problem.velocity.resize(problem.q.size());
-		for (std::size_t i = 0; i < impulse.size(); ++i) {
+		for (std::size_t i = 0; i < lanes.size(); ++i) {
 			const Vector u = velocityAt(i);
 			Eigen::Map<Vector>(&problem.velocity[D * i]) = u;
-			Eigen::Map<Vector>(&problem.impulse[D * i]) = impulse[i];
+			Eigen::Map<Vector>(&problem.impulse[D * i]) = impulse(i);
 			report.maxApproachSpeed = std::max(report.maxApproachSpeed, -u[0]);
-			report.activeContacts += impulse[i][0] > 0;
-			if constexpr (D == 2) report.ambiguousContacts += !local[i].isUnique(problem.friction[i]);
+			report.activeContacts += lanes[i].lane[0] > 0;
 		}
+		if constexpr (D == 2)
+			for (std::size_t i = 0; i < lanes.size(); ++i) report.ambiguousContacts += !OneContact2D(diagonalBlock(i)).isUnique(problem.friction[i]);
 	}
 
-	/// Whether the impulses have grown without stopping the approach: they are a thousand times those that would stop each contact alone, and more
-	/// than half of the approach is left (both in the norm of 1 / W_NN). Where contacts press one body from opposite sides there is no solution, but
-	/// any residual relative to the impulses falls below any tolerance when these go to infinity.
-	bool runsAway() const
+	/// Contacts that impulses, however large, do not stop.
+	CrushedContacts crushed(double tolerance)
 	{
-		double approach = 0, free = 0, stored = 0;
-		for (std::size_t i = 0; i < impulse.size(); ++i) {
-			const double Wnn = diagonal[i](0, 0), u = std::min(0.0, velocityAt(i)[0]), q = std::min(0.0, problem.q[D * i]);
-			if (!(Wnn > 0)) continue;
-			approach += u * u / Wnn;
-			free += q * q / Wnn;
-			stored += Wnn * impulse[i][0] * impulse[i][0];
+		double largest = 0;
+		for (std::size_t i = 0; i < lanes.size(); ++i) largest = std::max(largest, -problem.q[D * i]);
+		CrushedContacts contacts(tolerance, largest);
+		for (std::size_t i = 0; i < lanes.size(); ++i) {
+			if (!(problem.q[D * i] < 0 && lanes[i].lane[0] > 0)) continue;
+			prepare();
+			contacts.add(problem.q[D * i], velocityAt(i)[0], lanes[i].lane[0], visited[i].W(0, 0));
 		}
-		return free > 0 && approach > 0.25 * free && stored > 1e6 * free;
+		return contacts;
 	}
 
-	const std::vector<Vector>& impulses() const { return impulse; }
+	void impulses(std::vector<Vector>& r) const
+	{
+		r.resize(lanes.size());
+		for (std::size_t i = 0; i < lanes.size(); ++i) r[i] = impulse(i);
+	}
 
 	/// Continues from these impulses, brought into their cones, without momentum.
 	void setImpulses(const std::vector<Vector>& given)
 	{
-		for (std::size_t i = 0; i < impulse.size(); ++i) {
-			impulse[i] = projected({given[i][0], given[i].template tail<D - 1>()}, problem.friction[i]);
-			increment[i].setZero();
-			direction[i].setZero();
+		prepare();
+		for (std::size_t i = 0; i < lanes.size(); ++i) {
+			put(i, projected(given[i], problem.friction[i]));
+			visited[i].increment.setZero();
+			visited[i].direction.setZero();
 		}
 	}
 
 	/// The same without a look at the cones: for trial points of a line search.
-	void setRaw(const std::vector<Vector>& given) { impulse = given; }
+	void setRaw(const std::vector<Vector>& given)
+	{
+		for (std::size_t i = 0; i < lanes.size(); ++i) put(i, given[i]);
+	}
 
 	/// u = W r + q [m/s] at the present impulses.
 	void velocities(std::vector<Vector>& u) const
 	{
-		u.resize(impulse.size());
-		for (std::size_t i = 0; i < impulse.size(); ++i) u[i] = velocityAt(i);
+		u.resize(lanes.size());
+		for (std::size_t i = 0; i < lanes.size(); ++i) u[i] = velocityAt(i);
 	}
 
 	/// Starts from the impulses as they are, also outside their cones: for residualOf().
 	void takeImpulsesAsGiven()
 	{
-		for (std::size_t i = 0; i < impulse.size(); ++i) impulse[i] = at(problem.impulse, i);
+		for (std::size_t i = 0; i < lanes.size(); ++i) put(i, at(problem.impulse, i));
 	}
 
 private:
+	/// What the visits of a contact keep.
+	struct Visited {
+		Local local;
+		Block W; // symmetric part of the diagonal block
+		Vector increment = Vector::Zero(), direction = Vector::Zero();
+		double slidingRate = 0;
+
+		/// Exact solution of this contact when its impulse x goes with the velocity u.
+		Vector visit(const Vector& x, const Vector& u, double mu)
+		{
+			const double bn = u[0] - W.row(0).dot(x);
+			if (!(bn < 0)) return Vector::Zero();
+			if constexpr (D == 2)
+				return local.solve(u - W * x, mu);
+			else
+				return local.solve(u - W * x, mu, slidingRate);
+		}
+	};
+
 	BlockProblem& problem;
 	Measure measure;
-	std::vector<Block> diagonal;
-	std::vector<Local> local;
-	std::vector<Vector> impulse, increment, direction; // as in BallPack
+	BlockProduct product;
+	BlockRows rows;
+	std::vector<ImpulseLanes> lanes;
+	bool atZero = false;		  // all impulses are zero
+	std::vector<Visited> visited; // empty until the first visit: a start that solves the problem does without
 
-	/// The eigenvectors of the local operators, when the first visit needs them: a start that solves the problem does without.
 	void prepare()
 	{
-		if (local.size() == diagonal.size()) return;
-		local.clear();
-		for (const Block& W : diagonal) local.emplace_back(W);
+		if (!visited.empty()) return;
+		visited.resize(lanes.size());
+		for (std::size_t i = 0; i < visited.size(); ++i) {
+			visited[i].W = diagonalBlock(i);
+			visited[i].local = Local(visited[i].W);
+		}
 	}
 
-	Block block(int k) const { return Eigen::Map<const Eigen::Matrix<double, D, D, Eigen::RowMajor>>(&problem.blocks[D * D * k]); }
-	Eigen::Map<const Vector> at(const std::vector<double>& values, std::size_t i) const { return Eigen::Map<const Vector>(&values[D * i]); }
-
-	static Vector projected(const Split<Tangent>& r, double mu)
+	/// Its symmetric part: the visit works with the increments of u, so that a symmetric local operator leaves the solution of the whole as it is.
+	Block diagonalBlock(std::size_t i) const
 	{
-		const Split<Tangent> inside = projectOnCone(r, mu);
+		Block W = Block::Zero();
+		for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k)
+			if (std::size_t(problem.column[k]) == i)
+				W += Eigen::Map<const Eigen::Matrix<double, D, D, Eigen::RowMajor>>(&problem.blocks[D * D * std::size_t(k)]);
+		return 0.5 * (W + W.transpose());
+	}
+
+	Eigen::Map<const Vector> at(const std::vector<double>& values, std::size_t i) const { return Eigen::Map<const Vector>(&values[D * i]); }
+	static Split<Tangent> split(const Vector& a) { return {a[0], a.template tail<D - 1>()}; }
+
+	static Vector projected(const Vector& r, double mu)
+	{
+		const Split<Tangent> inside = projectOnCone(split(r), mu);
 		Vector result;
 		result << inside.n, inside.t;
 		return result;
 	}
 
+	Vector impulse(std::size_t i) const { return Eigen::Map<const Vector>(lanes[i].lane); }
+
+	void put(std::size_t i, const Vector& r)
+	{
+		atZero = false;
+		if constexpr (D == 2)
+			lanes[i] = {{r[0], r[1], r[0], r[1]}};
+		else
+			lanes[i] = {{r[0], r[1], r[2], 0}};
+	}
+
 	Vector velocityAt(std::size_t i) const
 	{
-		Vector u = at(problem.q, i);
-		for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k) {
-			const double* w = &problem.blocks[D * D * k];
-			const Vector& r = impulse[problem.column[k]];
-			// The products of a block are added up before they meet u: one addition a block in the chain that the processor waits for.
-			for (int row = 0; row < D; ++row) {
-				if constexpr (D == 2)
-					u[row] += w[D * row] * r[0] + w[D * row + 1] * r[1];
-				else
-					u[row] += (w[D * row] * r[0] + w[D * row + 1] * r[1]) + w[D * row + 2] * r[2];
-			}
-		}
+		if (atZero) return at(problem.q, i);
+		Vector u;
+		product(rows, lanes.data(), i, i + 1, u.data());
 		return u;
 	}
 };

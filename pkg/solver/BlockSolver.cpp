@@ -5,6 +5,7 @@
 #include "NewtonFinish.hpp"
 #include "SignoriniCoulombLoop.hpp"
 
+#include <limits>
 #include <optional>
 
 namespace contactdynamics {
@@ -22,34 +23,18 @@ constexpr int fewestSteps = 60, mostSteps = 120; // of a finish
 template <int D> class BlockSolver {
 public:
 	BlockSolver(BlockProblem& given, const SolverOptions& wanted, Measure measure)
-		: problem(given), options(wanted), blocks(given, measure), best{blocks.certificate(), blocks.impulses()}
+		: problem(given), options(wanted), blocks(given, measure), best{blocks.certificate(), {}}
 	{
 	}
 
 	SolveReport run()
 	{
-		const bool finishes = options.newtonFinish && options.acceleration != Acceleration::none;
-		int until = finishes ? fewestSweeps : options.maxIterations;
-		while (!solved() && report.iterations < options.maxIterations) {
-			if (!sweep(std::min(until, options.maxIterations) - report.iterations)) break;
-			if (solved() || !finishes) continue;
-			if (!newton) newton.emplace(problem, blocks);
-			const double sweepsOfStep = newton->stepCost() / (2.0 * double(problem.blocks.size())), spent = report.iterations;
-			const bool last = report.iterations == options.maxIterations;
-			if (last ? spent < fewestSweeps : spent < sweepsPerStep * sweepsOfStep) {
-				until = int(std::min(1e9, std::max(2 * spent, sweepsPerStep * sweepsOfStep + 1)));
-				continue;
-			}
-			const int steps = int(std::clamp(stepsPerSweeps * spent / sweepsOfStep, double(fewestSteps), double(mostSteps)));
-			report.newtonSteps += newton->improve(best, options.tolerance, steps);
-			blocks.setImpulses(best.impulses);
-			until = int(std::min(1e9, 2 * spent));
-		}
+		if (!solved() && problem.contacts() > 0) search();
 		report.residual = best.residual;
 		report.status = SolveStatus::notFinite;
 		if (!std::isfinite(best.residual)) return report;
-		blocks.setRaw(best.impulses);
-		report.status = !solved() ? SolveStatus::maxIterations : blocks.runsAway() ? SolveStatus::unbounded : SolveStatus::converged;
+		if (!atBest) restore();
+		report.status = !solved() ? SolveStatus::maxIterations : runsAway() ? SolveStatus::unbounded : SolveStatus::converged;
 		blocks.finish(report);
 		return report;
 	}
@@ -58,21 +43,93 @@ private:
 	BlockProblem& problem;
 	const SolverOptions& options;
 	BlockOperator<D> blocks;
-	CertifiedPoint<D> best;
+	CertifiedPoint<D> best; // without impulses while it is the start
+	bool atBest = true;		// the operator is there
 	std::optional<NewtonFinish<D>> newton;
 	SolveReport report;
 
 	bool solved() const { return best.residual <= options.tolerance; }
 
-	bool sweep(int count)
+	void search()
+	{
+		const bool finishes = options.newtonFinish && options.acceleration != Acceleration::none;
+		if (options.acceleration == Acceleration::none) {
+			sweep(options.maxIterations, options.acceleration);
+			return;
+		}
+		if (!sweepPlainly() || solved()) return;
+		int until = finishes ? fewestSweeps : options.maxIterations;
+		while (!solved() && report.iterations < options.maxIterations) {
+			if (!sweep(until - report.iterations, options.acceleration)) break;
+			if (solved() || !finishes) continue;
+			if (!newton) newton.emplace(problem, blocks);
+			const double sweepsOfStep = newton->stepCost() / (2.0 * double(problem.blocks.size())), spent = report.iterations;
+			const bool last = report.iterations == options.maxIterations;
+			if (last ? spent < fewestSweeps : spent < sweepsPerStep * sweepsOfStep) {
+				until = int(std::min(1e9, std::max(2 * spent, sweepsPerStep * sweepsOfStep + 1)));
+				continue;
+			}
+			if (!atBest) restore();
+			const int steps = int(std::clamp(stepsPerSweeps * spent / sweepsOfStep, double(fewestSteps), double(mostSteps)));
+			report.newtonSteps += newton->improve(best, options.tolerance, steps);
+			atBest = false;
+			restore();
+			until = int(std::min(1e9, 2 * spent));
+		}
+	}
+
+	/// Plain sweeps as long as they promise to be done soon. False when the iterate is not finite.
+	bool sweepPlainly()
+	{
+		double before = best.residual;
+		for (int round = 8; report.iterations < options.maxIterations; round = 8) {
+			if (!sweep(round, Acceleration::none)) return false;
+			if (solved()) return true;
+			const double left = std::log(options.tolerance / last) / std::log(last / before) * round;
+			if (report.iterations > 8 && !(last < before && left < 60)) return true;
+			before = last;
+		}
+		return true;
+	}
+
+	void restore()
+	{
+		best.impulses.empty() ? blocks.start() : blocks.setImpulses(best.impulses);
+		atBest = true;
+	}
+
+	/// Whether the tolerance is met only because the impulses grow without bound. The point stays the best one.
+	bool runsAway()
+	{
+		const CrushedContacts here = blocks.crushed(options.tolerance);
+		if (!here.any()) return false;
+		blocks.impulses(best.impulses);
+		SolverOptions further = options;
+		further.maxIterations = CrushedContacts::furtherSweeps(report.iterations);
+		further.tolerance = std::numeric_limits<double>::min();
+		signoriniCoulombLoop(blocks, further);
+		const bool stay = here.stay(blocks.crushed(options.tolerance));
+		blocks.setRaw(best.impulses);
+		return stay;
+	}
+
+	double last = 0; // residual after the last sweep
+
+	/// At most so many sweeps. False when the iterate is not finite.
+	bool sweep(int count, Acceleration acceleration)
 	{
 		SolverOptions round = options;
-		round.maxIterations = count;
+		round.maxIterations = std::min(count, options.maxIterations - report.iterations);
+		round.acceleration = acceleration;
 		const LoopResult result = signoriniCoulombLoop(blocks, round);
 		report.iterations += result.iterations;
-		const bool finite = std::isfinite(result.residual);
-		if (finite) best.keepIfBetter(result.residual, blocks.impulses());
-		return finite && result.iterations > 0;
+		last = result.residual;
+		atBest = last < best.residual || !std::isfinite(best.residual);
+		if (!std::isfinite(last)) return atBest = false;
+		if (!atBest) return true;
+		best.residual = last;
+		if (!solved()) blocks.impulses(best.impulses); // the end of most solves needs no copy
+		return true;
 	}
 };
 

@@ -16,7 +16,7 @@ void pauseBriefly()
 
 } // namespace
 
-Crew::Crew(int threads)
+Crew::Crew(int threads) : wanted(threads)
 {
 	mates.reserve(threads > 1 ? threads - 1 : 0);
 	for (int i = 1; i < threads; ++i) {
@@ -95,7 +95,7 @@ void Crew::assist()
 	while (!dismissed.load(std::memory_order_acquire)) {
 		if (takeJob(End::back))
 			spins = 0;
-		else if (++spins < 20000)
+		else if (!resting.load(std::memory_order_relaxed) && ++spins < 20000)
 			pauseBriefly();
 		else {
 			asleep.fetch_add(1);

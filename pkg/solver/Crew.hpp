@@ -18,11 +18,18 @@ namespace contactdynamics {
 /// Which thread does a job is a matter of chance; results must not depend on it.
 class Crew {
 public:
-	/// Mates for the life time of the object; none when the system refuses more threads: then the leader does all.
+	/// Mates for the life time of the object; none when the system refuses more threads: then the leader does all. They sleep until resume().
 	explicit Crew(int threads);
 	~Crew();
 	Crew(const Crew&) = delete;
 	Crew& operator=(const Crew&) = delete;
+
+	int threads() const { return wanted; } ///< asked for, the leader included
+
+	/// Around many stages: between resume() and rest() mates spin for a while when there is no job, after rest() they go to sleep at once, so that
+	/// they do not stand in the way of other threads of the program.
+	void resume() { resting.store(false, std::memory_order_relaxed); }
+	void rest() { resting.store(true, std::memory_order_relaxed); }
 
 	/// Calls job(0) ... job(count - 1), each once, concurrently; returns when all are done. Jobs must not throw.
 	template <class Job> void run(std::size_t count, const Job& job)
@@ -40,6 +47,7 @@ public:
 private:
 	static constexpr std::size_t maxJobs = 0x7fffffff;
 
+	int wanted;
 	std::vector<std::thread> mates;
 	// Of the present stage; written by the leader only while no job is open.
 	void (*call)(const void*, std::size_t) = nullptr;
@@ -49,7 +57,7 @@ private:
 	int alone = 0, penalty = 64;
 	alignas(64) std::atomic<std::uint64_t> board{0}; // open jobs: one past the last (upper half) and the first (lower half)
 	alignas(64) std::atomic<std::size_t> done{0};
-	std::atomic<bool> dismissed{false};
+	std::atomic<bool> dismissed{false}, resting{true};
 	std::atomic<int> asleep{0}; // mates that wait for the bell because nothing came for a while
 	std::mutex bed;
 	std::condition_variable bell;

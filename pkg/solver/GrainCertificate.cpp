@@ -81,7 +81,7 @@ void GrainOperator::rebuildVelocities()
 		if (id >= 0 && !impulses[id].isZero(0)) addImpulse(problem->contacts[id], impulses[id]);
 	};
 	for (const Group& group : groups)
-		crew->run(group.lastChunk - group.firstChunk, [&](std::size_t k) {
+		share(group.lastChunk - group.firstChunk, [&](std::size_t k) {
 			const Chunk& chunk = chunks[group.firstChunk + k];
 			for (std::size_t i = chunk.firstPack; i < chunk.firstPack + chunk.packs; ++i)
 				for (const std::int32_t id : packs[i].id) add(id);
@@ -130,7 +130,7 @@ double GrainOperator::certificate()
 	if (hasField()) sumMoment();
 	const std::size_t count = problem->contacts.size();
 	sums.assign((count + perRun - 1) / perRun, Sums{});
-	crew->run(sums.size(), [&](std::size_t k) { sums[k] = certify(k * perRun, std::min(count, (k + 1) * perRun)); });
+	share(sums.size(), [&](std::size_t k) { sums[k] = certify(k * perRun, std::min(count, (k + 1) * perRun)); });
 	Sums total;
 	for (const Sums& one : sums) {
 		total.residual.add(one.residual);
@@ -138,6 +138,22 @@ double GrainOperator::certificate()
 	}
 	maxApproachSpeed = total.approach;
 	return total.residual.value();
+}
+
+CrushedContacts GrainOperator::crushed(double tolerance) const
+{
+	CrushedContacts found(tolerance, largestFreeApproach);
+	for (std::size_t i = 0; i < impulses.size(); ++i) {
+		const Contact& c = problem->contacts[i];
+		const double rN = impulses[i].dot(c.normal);
+		const double uN = c.relativeVelocity.dot(c.normal) + c.gapVelocity + c.normalCompliance * rN;
+		if (!(rN > 0 && uN < 0)) continue;
+		const Body &b1 = problem->bodies[c.body1], &b2 = problem->bodies[c.body2]; // free velocities, until finish()
+		const Vector3 free = b2.velocity + c.imageVelocity - b1.velocity + b2.angularVelocity.cross(c.arm2) - b1.angularVelocity.cross(c.arm1);
+		const double Wnn = localDelassus(b1, b2, c, contactFrame(c.normal))(0, 0) + c.normalCompliance;
+		found.add(free.dot(c.normal) + c.gapVelocity, uN, rN, Wnn);
+	}
+	return found;
 }
 
 void GrainOperator::finish(SolveReport& report)

@@ -8,23 +8,19 @@
 
 namespace contactdynamics {
 
-namespace {
-
-constexpr std::size_t worthThreads = 3000; // awake contacts; below, handing out the colours costs more than it brings
-
-} // namespace
-
-void GrainOperator::start(GrainProblem& given, bool accelerate, int maxThreads)
+void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 {
 	problem = &given;
 	accelerated = accelerate;
 	sweeps = 0;
 	lastNorms = {};
+	speedLimit = largestFreeApproach = 0;
 	const auto& bodies = problem->bodies;
 	const auto& contacts = problem->contacts;
 	state.resize(bodies.size() + 1);
 	movable.resize(bodies.size());
-	crew.emplace(contacts.size() >= worthThreads ? maxThreads : 1);
+	crew = &hands;
+	together = isWorthThreads(contacts.size());
 	inRuns(bodies.size(), [&](std::size_t i) {
 		movable[i] = !bodies[i].inverseMass.isZero(0) || !bodies[i].inverseInertia.isZero(0);
 		state[i].inverseMass = bodies[i].inverseMass[0];
@@ -47,6 +43,7 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, int maxThreads)
 	bool closes = false;
 	for (const Sums& one : sums) {
 		closes = closes || one.approach < -roundOffOf(one.speeds);
+		largestFreeApproach = std::max(largestFreeApproach, -one.approach);
 		speedLimit = std::max(speedLimit, 1000 * one.speeds);
 	}
 	// Where nothing closes, no impulse at all is an exact solution; from impulses of before the sweeps would only creep up to it.
@@ -81,7 +78,7 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, int maxThreads)
 			putSleeper(std::int32_t(i));
 	}
 	layOut(selected);
-	if (awake < worthThreads) crew.emplace(1);
+	together = isWorthThreads(awake);
 }
 
 double GrainOperator::normalVelocity(const Contact& c) const
@@ -130,7 +127,7 @@ SweepNorms GrainOperator::sweep(Extrapolation by)
 	const std::size_t bodies = problem->bodies.size();
 	if (accelerated) inRuns(bodies, [&](std::size_t i) { extrapolate(by, i); });
 	for (const Group& group : groups)
-		crew->run(group.lastChunk - group.firstChunk, [&](std::size_t k) {
+		share(group.lastChunk - group.firstChunk, [&](std::size_t k) {
 			const std::size_t i = group.firstChunk + k;
 			visit(chunks[i], chunkNorms[i], by, hasField() ? &chunkFields[i] : nullptr);
 		});

@@ -3,11 +3,11 @@
 
 #include "Colouring.hpp"
 #include "Crew.hpp"
+#include "CrushedContacts.hpp"
 #include "GeneralContact.hpp"
 #include "NaturalMap.hpp"
 #include "SolveReport.hpp"
 
-#include <optional>
 #include <vector>
 
 namespace contactdynamics {
@@ -20,7 +20,9 @@ namespace contactdynamics {
 class GrainOperator {
 public:
 	/// Takes the problem over until finish(): free velocities and start impulses, brought inside their cones.
-	void start(GrainProblem& problem, bool accelerated, int threads);
+	/// @param crew  does the work from a few thousand contacts on; must outlive the use of the operator
+	void start(GrainProblem& problem, bool accelerated, Crew& crew);
+	static bool isWorthThreads(std::size_t contacts) { return contacts >= 3000; } ///< below, handing out the colours costs more than it brings
 	static constexpr int firstCheck = 0; ///< a certificate costs six sweeps: wait until the increments promise convergence
 	bool anyAwake() const { return awake > 0; }
 
@@ -28,8 +30,8 @@ public:
 	bool mend();
 	double certificate();
 
-	/// Sends the threads home; start() engages new ones.
-	void dismissCrew() { crew.reset(); }
+	/// Contacts that impulses, however large, do not stop, at the point of the last certificate().
+	CrushedContacts crushed(double tolerance) const;
 
 	/// Writes velocities, impulses and status of the last certificate() into the problem, and the counts into the report.
 	void finish(SolveReport& report);
@@ -63,10 +65,12 @@ private:
 	BallSweep ballSweep = selectBallSweep();
 	bool accelerated = false;
 	int sweeps = 0;
-	std::optional<Crew> crew;
+	Crew* crew = nullptr;
+	bool together = false; // the crew is at work
 	std::size_t awake = 0;
 	double maxApproachSpeed = 0;
-	double speedLimit = 0; // speeds above it, 1000 times the fastest at the start, are no excuse for round-off: the iterate diverges [m/s]
+	double largestFreeApproach = 0; // without any impulse [m/s]
+	double speedLimit = 0;			// speeds above it, 1000 times the fastest at the start, are no excuse for round-off: the iterate diverges [m/s]
 	SweepNorms lastNorms;
 
 	// The mean field: sum of r b^T over all contacts [kg m2/s], now, at the start of the last sweep, and in the search direction; L that goes with
@@ -95,9 +99,17 @@ private:
 	static bool isCompliant(const Contact& c) { return c.normalCompliance != 0 || c.tangentialCompliance != 0; }
 	bool isBall(const Contact& c) const { return c.ball && c.imageVelocity.isZero(0) && !isCompliant(c); }
 	/// Calls job(0) ... job(count - 1) in any order; each may write only what belongs to its index.
+	template <class Job> void share(std::size_t count, const Job& job)
+	{
+		if (together)
+			crew->run(count, job);
+		else
+			for (std::size_t i = 0; i < count; ++i) job(i);
+	}
+	/// The same in runs of many.
 	template <class Job> void inRuns(std::size_t count, const Job& job)
 	{
-		crew->run((count + perRun - 1) / perRun, [&](std::size_t k) {
+		share((count + perRun - 1) / perRun, [&](std::size_t k) {
 			for (std::size_t i = k * perRun; i < std::min(count, (k + 1) * perRun); ++i) job(i);
 		});
 	}

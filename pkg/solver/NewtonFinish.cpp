@@ -15,14 +15,16 @@ template <int D> int NewtonFinish<D>::improve(CertifiedPoint<D>& best, double to
 	// The swept steps may have ended where the search cannot leave, so it starts where they did.
 	CertifiedPoint<D> other = start;
 	done += searched(other, tolerance, steps - done);
-	best.keepIfBetter(other.residual, other.impulses);
+	if (other.residual < best.residual) best = other;
 	return done;
 }
 
-template <int D> void NewtonFinish<D>::certify(CertifiedPoint<D>& best)
+template <int D> void NewtonFinish<D>::certify(CertifiedPoint<D>& best, double tolerance)
 {
 	const double residual = blocks.certificate();
-	if (residual < best.residual && !blocks.runsAway()) best.keepIfBetter(residual, blocks.impulses());
+	if (!(residual < best.residual) || blocks.crushed(tolerance).any()) return;
+	best.residual = residual;
+	blocks.impulses(best.impulses);
 }
 
 template <int D> int NewtonFinish<D>::swept(CertifiedPoint<D>& best, double tolerance, int steps)
@@ -31,15 +33,16 @@ template <int D> int NewtonFinish<D>::swept(CertifiedPoint<D>& best, double tole
 	blocks.setRaw(best.impulses);
 	for (int done = 1; done <= steps; ++done) {
 		blocks.velocities(velocity);
-		if (!step.compute(blocks.impulses(), velocity, damping, next)) return done;
+		blocks.impulses(point);
+		if (!step.compute(point, velocity, damping, next)) return done;
 		blocks.setImpulses(next);
-		certify(best);
+		certify(best, tolerance);
 		if (best.residual <= tolerance) return done;
 		blocks.sweep({});
 		blocks.sweep({});
 		const double residual = blocks.certificate();
 		if (!std::isfinite(residual)) return done;
-		certify(best);
+		certify(best, tolerance);
 		if (best.residual <= tolerance) return done;
 		damping = std::max(leastDamping, 0.3 * std::min(damping, residual));
 	}
@@ -51,7 +54,8 @@ template <int D> int NewtonFinish<D>::searched(CertifiedPoint<D>& best, double t
 	constexpr int halvings = 6;
 	constexpr double enough = 1e-4; // of Armijo's rule
 	double damping = firstDamping;
-	std::vector<Vector> point = best.impulses, trial(point.size());
+	point = best.impulses;
+	trial.resize(point.size());
 	blocks.setRaw(point);
 	blocks.velocities(velocity);
 	double merit = step.merit(point, velocity);
@@ -74,7 +78,7 @@ template <int D> int NewtonFinish<D>::searched(CertifiedPoint<D>& best, double t
 			point = trial;
 			velocity.swap(trialVelocity);
 			blocks.setImpulses(point);
-			certify(best);
+			certify(best, tolerance);
 			if (best.residual <= tolerance) return done;
 		}
 		if (!accepted)

@@ -10,13 +10,6 @@ namespace contactdynamics {
 template <int D> struct CertifiedPoint {
 	double residual = 0;
 	std::vector<Eigen::Matrix<double, D, 1>> impulses;
-
-	void keepIfBetter(double otherResidual, const std::vector<Eigen::Matrix<double, D, 1>>& other)
-	{
-		if (!(otherResidual < residual) && std::isfinite(residual)) return;
-		residual = otherResidual;
-		impulses = other;
-	}
 };
 
 /// Newton steps from a point of the sweeps, in two ways one after the other:
@@ -28,7 +21,8 @@ template <int D> struct CertifiedPoint {
 ///     and
 ///               surer; without sweeps, because they take it back to where they stall.
 ///
-/// Only points with a lower certificate than the best so far are kept, and only where the impulses do not run away.
+/// Only points with a lower certificate than the best so far are kept, and only where no contact is crushed (CrushedContacts.hpp): damped steps go to
+/// infinity at once where there is no solution.
 template <int D> class NewtonFinish {
 public:
 	using Vector = Eigen::Matrix<double, D, 1>;
@@ -45,11 +39,11 @@ private:
 	BlockOperator<D>& blocks;
 	NewtonStep<D> step;
 	double cost;
-	std::vector<Vector> velocity, trialVelocity, next;
+	std::vector<Vector> point, velocity, trial, trialVelocity, next;
 
 	int swept(CertifiedPoint<D>& best, double tolerance, int steps);
 	int searched(CertifiedPoint<D>& best, double tolerance, int steps);
-	void certify(CertifiedPoint<D>& best);
+	void certify(CertifiedPoint<D>& best, double tolerance);
 };
 
 } // namespace contactdynamics

@@ -26,17 +26,27 @@ public:
 	/// @return    impulse [N s]; zero when b_n >= 0, and when W_nn = 0 (nothing can move along the normal)
 	Vector3 solve(const Vector3& b, double mu) const;
 
+	/// The same, for visits that follow each other.
+	/// @param rate  in: sliding rate k of the last visit, where the search begins, 0: unknown; out: that of this visit, left alone unless it slides
+	Vector3 solve(const Vector3& b, double mu, double& rate) const;
+
 	double normalMobility() const { return Wnn; } ///< W_nn [1/kg]
 
 private:
-	double Wnn = 0;						   // [1/kg]
-	double wx = 0, wy = 0;				   // W_tn
-	double cosine = 1, sine = 0;		   // eigenvectors of A: (cosine, sine), (-sine, cosine)
-	double largeEigen = 0, smallEigen = 0; // of A, >= 0
+	double Wnn = 0, inverseWnn = 0;			   // [1/kg], [kg]
+	double cosine = 1, sine = 0;			   // eigenvectors of A: (cosine, sine), (-sine, cosine)
+	double wLarge = 0, wSmall = 0;			   // w along them
+	double largeEigen = 0, smallEigen = 0;	   // of A, >= 0
+	double inverseLarge = 0, inverseSmall = 0; // 0 for 0
+	double roundOff = 0;					   // of A [1/kg]
 
-	double roundOff = 0; // of A [1/kg]
-
-	double slidingRate(double cLarge, double cSmall, double wLarge, double wSmall, double bn, double mu) const;
+	/// What pushes the contact: b_n, c along the eigenvectors, mu / W_nn.
+	struct Pushed {
+		double normal, large, small, ratio;
+	};
+	struct Sliding;
+	Sliding slideAt(double k, const Pushed& pushed) const;
+	double slidingRate(const Pushed& pushed, double guess) const;
 };
 
 } // namespace contactdynamics

@@ -4,6 +4,8 @@
 #include "GrainOperator.hpp"
 #include "SignoriniCoulombLoop.hpp"
 
+#include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -11,6 +13,16 @@ namespace contactdynamics {
 
 struct SignoriniCoulombSolver::Workspace {
 	GrainOperator grains, rival;
+	std::optional<Crew> crew;
+
+	/// Kept while the number of threads stays the same, also over small problems in between.
+	Crew& crewFor(const GrainProblem& problem, int threads)
+	{
+		if (!GrainOperator::isWorthThreads(problem.contacts.size())) threads = crew ? crew->threads() : 1;
+		if (!crew || crew->threads() != threads) crew.emplace(threads);
+		return *crew;
+	}
+	bool runsAway(const GrainProblem& free, const GrainProblem& solved, const SolverOptions& options, int done, const CrushedContacts& crushed);
 };
 
 SignoriniCoulombSolver::SignoriniCoulombSolver() : workspace(std::make_unique<Workspace>()) {}
@@ -49,6 +61,18 @@ void requireField(const GrainProblem& problem)
 	if (!(field.limit > 0)) throw std::invalid_argument("MeanField::limit is " + std::to_string(field.limit) + ", must be > 0");
 }
 
+/// Mates are awake during a solve, whichever way it is left.
+class AtWork {
+public:
+	explicit AtWork(Crew& its) : crew(its) { crew.resume(); }
+	~AtWork() { crew.rest(); }
+	AtWork(const AtWork&) = delete;
+	AtWork& operator=(const AtWork&) = delete;
+
+private:
+	Crew& crew;
+};
+
 bool isFinite(const GrainProblem& problem)
 {
 	double poison = 0; // zero times a finite number is zero, times anything else not a number
@@ -62,6 +86,21 @@ bool isFinite(const GrainProblem& problem)
 
 } // namespace
 
+/// Whether contacts that are crushed at a solution still are when the sweeps go on from there.
+/// @param free  the problem before the solve;  @param crushed  what the operator found at the solution
+bool SignoriniCoulombSolver::Workspace::runsAway(const GrainProblem& free, const GrainProblem& solved, const SolverOptions& options, int done,
+												 const CrushedContacts& crushed)
+{
+	GrainProblem further = free;
+	for (std::size_t i = 0; i < further.contacts.size(); ++i) further.contacts[i].impulse = solved.contacts[i].impulse;
+	SolverOptions endless = options;
+	endless.tolerance = std::numeric_limits<double>::min();
+	endless.maxIterations = CrushedContacts::furtherSweeps(done);
+	rival.start(further, options.acceleration != Acceleration::none, *crew);
+	signoriniCoulombLoop(rival, endless);
+	return crushed.stay(rival.crushed(options.tolerance));
+}
+
 SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOptions& options)
 {
 	requireOptions(options);
@@ -72,18 +111,26 @@ SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOpt
 	if (!isFinite(problem)) return report;
 
 	GrainOperator &grains = workspace->grains, &rival = workspace->rival;
-	grains.start(problem, options.acceleration != Acceleration::none, options.threads);
+	Crew& crew = workspace->crewFor(problem, options.threads);
+	const AtWork work(crew);
+	grains.start(problem, options.acceleration != Acceleration::none, crew);
 	const LoopResult result = signoriniCoulombLoop(grains, options, [&] {
-		rival.start(problem, false, options.threads);
+		rival.start(problem, false, crew);
 		return &rival;
 	});
 	report.iterations = result.iterations;
 	report.residual = result.residual;
 	if (!std::isfinite(result.residual)) return report;
-	(result.byRival ? rival : grains).finish(report);
-	grains.dismissCrew();
-	rival.dismissCrew();
-	report.status = result.residual <= options.tolerance ? SolveStatus::converged : SolveStatus::maxIterations;
+	GrainOperator& winner = result.byRival ? rival : grains;
+	const bool converged = result.residual <= options.tolerance;
+	report.status = converged ? SolveStatus::converged : SolveStatus::maxIterations;
+	const CrushedContacts crushed = converged ? winner.crushed(options.tolerance) : CrushedContacts(1, 0);
+	if (crushed.any()) {
+		const GrainProblem free = problem;
+		winner.finish(report);
+		if (workspace->runsAway(free, problem, options, result.iterations, crushed)) report.status = SolveStatus::unbounded;
+	} else
+		winner.finish(report);
 	return report;
 }
 

@@ -7,7 +7,7 @@ enum class SolveStatus {
 	converged,	   ///< residual <= tolerance at the returned point
 	maxIterations, ///< residual > tolerance: the returned point is the last one, inside the cones and consistent with the velocities
 	notFinite,	   ///< input or iterate not finite: bodies and impulses are left as given
-	unbounded	   ///< explicit block problems only: the tolerance is met, but by impulses that grow without bound while the contacts go on closing
+	unbounded	   ///< the tolerance is met, but by impulses that grow without bound while contacts go on closing, see CrushedContacts.hpp
 };
 
 struct SolveReport {

@@ -36,7 +36,7 @@ public:
 			last = increment + impulse;
 			return true;
 		}
-		if (count == Operator::firstCheck || increment <= promise * impulse) {
+		if (count == op.firstCheck || increment <= promise * impulse) {
 			if (!op.mend()) {
 				last = op.certificate();
 				if (!(last > tolerance)) return true;

@@ -31,7 +31,8 @@ def engines(
     :param contactLaw: ``quasiInelasticShock``, ``velocitySignorini`` or ``signorini``, Jean (1999) eqs. (25), (23), (24)
     :param timeStepper: True puts a ContactDynamicsTimeStepper (label ``timeStepper``) with its defaults between ForceResetter and
         collider, so that ``O.dt`` follows the motion; a ContactDynamicsTimeStepper of your own is put there as it is
-    :param more: further attributes of ContactDynamicsEngine, such as ``warmStart=False`` or ``onNonConvergence="raise"``
+    :param more: further attributes of ContactDynamicsEngine, such as ``warmStart=False``, ``acceleration="none"`` (the plain Gauss-Seidel
+        loop of the paper) or ``onNonConvergence="raise"``
     :raises ValueError: an attribute has a value that is not admissible; its message names attribute, value and what is allowed
     :raises AttributeError: ContactDynamicsEngine has no attribute of that name
     """

@@ -28,7 +28,7 @@ O.dt = 5e-4
 O.run(6000, True)
 
 # start of the script
-takeOver(contactdynamics.engines(repairRate=0.1), dt=1e-3)
+takeOver(contactdynamics.engines(), dt=1e-3)
 O.run(1, True)
 before = cd.meanPenetration
 O.run(999, True)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from yade import O
 
-from scenes import equip, floor, grain, impulse_on, kinetic_energy, law, material, state, steps, vec
+from scenes import cd, equip, floor, grain, impulse_on, kinetic_energy, law, material, state, steps, vec
 
 H = 1e-3
 LAWS = ["quasiInelasticShock", "velocitySignorini", "signorini"]
@@ -64,9 +64,12 @@ def test_the_velocity_conditions_leave_an_overlap_and_add_no_energy(contact_law:
     law()
     floor()
     ball = grain((0, 0, 0.998))
-    equip(H, gravity=(0, 0, 0), contactLaw=contact_law)
+    equip(H, gravity=(0, 0, 0), contactLaw=contact_law, repairRate=0)
     steps(10)
     assert state(ball).pos[2] == 0.998 and kinetic_energy() == 0
+    cd().repairRate = 0.1
+    steps(10)
+    assert state(ball).pos[2] > 0.998 and kinetic_energy() == 0
 
 
 def test_forecast_of_velocity_signorini() -> None:

@@ -36,6 +36,19 @@ def test_ratio_of_velocities_across_an_impact(e: float, h: float) -> None:
         assert min(arrival) < 0.05, "no threshold hides slow impacts"
 
 
+@pytest.mark.parametrize("h", [1e-4, 1e-3, 7e-3])
+def test_no_restitution_stops_in_two_steps(h: float) -> None:
+    """e = 0: condition (25) closes the gap in one step and ends the approach in the next; the ratio across both is 0."""
+    law(normalRestitution=0)
+    floor()
+    ball = grain((0, 0, 1.3))
+    equip(h)
+    while impulse_on(ball)[2] == 0:
+        O.step()
+    O.step()
+    assert abs(state(ball).vel[2]) < CLOSED_FORM
+
+
 def test_threshold() -> None:
     for speed, expected in ((0.99, 0.0), (1.01, 0.5 * 1.01)):
         O.reset()

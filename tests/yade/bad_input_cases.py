@@ -264,6 +264,17 @@ def unknown_answer_to_non_convergence() -> None:
     goes_on()
 
 
+def unknown_acceleration() -> None:
+    def make_and_step() -> None:
+        scene()
+        cd().acceleration = "fast"
+        O.step()
+
+    _raises(make_and_step, "acceleration", "fast", "default", "none")
+    assert cd().acceleration == "default"
+    goes_on()
+
+
 def tolerance_out_of_range() -> None:
     scene()
     for wrong in (0.0, -1.0, NAN):

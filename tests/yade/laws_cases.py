@@ -14,6 +14,9 @@ LAWS = {
     "cohesion": dict(cohesionForce=3e4, cohesionStress=1e4),
     "compliance": dict(kn=3e8, ks=2e8, normalDamping=1e5),
     "rolling": dict(rollingFriction=0.1, twistingFriction=0.1),
+    "repair": dict(),
+    "signorini": dict(normalRestitution=0.5),
+    "velocitySignorini": dict(cohesionForce=1e4),
 }
 
 
@@ -21,10 +24,12 @@ def build(kind: str) -> None:
     generator = np.random.default_rng(11)
     law(**LAWS[kind])
     box((0, 0, -1), (20, 20, 1))
+    spacing = 1.85 if kind == "repair" else 2.1  # grains of radius 0.8 to 1
     for k in range(60):
-        place = 2.1 * np.array([k % 4, k // 4 % 4, k // 16]) + [0, 0, 1.0]
+        place = spacing * np.array([k % 4, k // 4 % 4, k // 16]) + [0, 0, 1.0]
         grain(place, radius=generator.uniform(0.8, 1), velocity=generator.uniform(-2, 2, 3), spin=generator.uniform(-2, 2, 3))
-    equip(5e-3, tolerance=1e-4, maxIterations=3000, onNonConvergence="ignore")
+    contact_law = kind if "ignorini" in kind else "quasiInelasticShock"
+    equip(5e-3, tolerance=1e-4, maxIterations=3000, onNonConvergence="ignore", contactLaw=contact_law)
     O.trackEnergy = True
 
 

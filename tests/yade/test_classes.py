@@ -34,6 +34,7 @@ DEFAULTS = {
     "contactLaw": "quasiInelasticShock",
     "warmStart": True,
     "onNonConvergence": "warn",
+    "acceleration": "default",
 }
 RESULTS = ["contacts", "activeContacts", "iterations", "residual", "converged", "maxPenetration", "meanPenetration"]
 OF_CONTACT = ["normalForce", "shearForce", "tangensOfFrictionAngle", "impulse", "status", "gap", "localVelocity"]
@@ -76,7 +77,7 @@ def test_quantities_say_their_unit(cls: str, name: str, unit: str) -> None:
 
 
 def test_settings_are_read_back_and_constructor_takes_keywords() -> None:
-    given = dict(tolerance=1e-7, maxIterations=77, contactLaw="signorini", warmStart=False, onNonConvergence="ignore")
+    given = dict(tolerance=1e-7, maxIterations=77, contactLaw="signorini", warmStart=False, onNonConvergence="ignore", acceleration="none")
     made = ContactDynamicsEngine(label="name", **given)
     assert made.label == "name"
     assert {n: getattr(made, n) for n in given} == given

@@ -8,7 +8,7 @@ import re
 import pytest
 from yade import O
 
-from scenes import cd, equip, floor, grain, material, steps
+from scenes import G, cd, contact, equip, floor, grain, material, steps
 
 
 def column(**more) -> None:
@@ -64,3 +64,34 @@ def test_silent_when_converged(capfd) -> None:
     cd().maxIterations = 200000
     steps(5)
     assert cd().converged and complaints(capfd) == []
+
+
+@pytest.mark.parametrize("sweeps", [1, 2, 5, 12])
+def test_plain_gauss_seidel_does_what_its_closed_form_says(sweeps: int) -> None:
+    """Two equal balls of weight w on a floor, from cold, lower contact first: R1 = w + R2, then R2 = R1 / 2 in every sweep.
+
+    So after k sweeps R1 = (2 - 2^(1-k)) w and R2 = (1 - 2^-k) w.
+    """
+    material()
+    floor()
+    for k in range(2):
+        grain((0, 0, 1 + 2 * k))
+    equip(1e-3, tolerance=1e-14, maxIterations=sweeps, warmStart=False, onNonConvergence="ignore", acceleration="none")
+    steps(1)
+    weight = O.bodies[1].state.mass * G
+    assert cd().iterations == sweeps
+    assert contact(0, 1).phys.normalForce.norm() / weight == pytest.approx(2 - 2.0 ** (1 - sweeps), rel=1e-9)
+    assert contact(1, 2).phys.normalForce.norm() / weight == pytest.approx(1 - 2.0**-sweeps, rel=1e-9)
+
+
+def test_default_needs_fewer_sweeps_than_plain_gauss_seidel() -> None:
+    needed = {}
+    for acceleration in ("default", "none"):
+        O.reset()
+        column(acceleration=acceleration)
+        cd().maxIterations = 100000
+        steps(1)
+        assert cd().converged
+        needed[acceleration] = cd().iterations
+    # The column's condition number is (2 n / pi)^2 = 160 for 20 balls; momentum sees its square root.
+    assert 5 * needed["default"] < needed["none"], needed

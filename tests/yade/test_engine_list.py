@@ -6,7 +6,16 @@ from __future__ import annotations
 import re
 
 import pytest
-from yade import GlobalStiffnessTimeStepper, NewtonIntegrator, O, PyRunner
+from yade import (
+    ForceEngine,
+    GlobalStiffnessTimeStepper,
+    GravityEngine,
+    NewtonIntegrator,
+    O,
+    PyRunner,
+    ServoPIDController,
+    TranslationEngine,
+)
 
 from contactdynamics import ContactDynamicsEngine
 from scenes import contact, engine, equip, floor, grain, material, state, steps, vec
@@ -178,3 +187,28 @@ def test_mistake_made_in_mid_run_is_found() -> None:
     engine("NewtonIntegrator").damping = 0
     works()
     assert contact(0, 1) is not None
+
+
+@pytest.mark.parametrize("make", [TranslationEngine, ForceEngine, GravityEngine, ServoPIDController])
+def test_forces_and_velocities_after_the_solve(make) -> None:
+    """What is added between the engine and the integrator would not be in the contact problem: the order is refused."""
+    right = scene()
+    late = make() if make is GravityEngine else make(ids=[0])
+    O.engines = right[:-1] + [late, right[-1]]
+    refused(make.__name__, "NewtonIntegrator", "before|behind")
+    late.dead = True
+    works()
+    O.engines = right
+    works()
+
+
+def test_servo_without_forces() -> None:
+    """Between ForceResetter and the engine a controller would see no contact forces and run at full speed for ever."""
+    right = scene()
+    servo = ServoPIDController(ids=[0], axis=(0, 0, 1), target=1)
+    O.engines = right[:3] + [servo] + right[3:]
+    # Where another engine has not done so already, YADE finds the forces not synchronised and says that instead.
+    with pytest.raises(RuntimeError, match="ServoPIDController|sync"):
+        O.step()
+    O.engines = right
+    works()

@@ -61,11 +61,24 @@ def test_bad_values_of_a_contact(name: str, value: float) -> None:
         O.step()
 
 
-@pytest.mark.parametrize("name", COEFFICIENTS + ["restitutionVelocity", "cohesionForce", "kn", "ks", "normalDamping"])
+PAIR_RULES = COEFFICIENTS + OTHERS + ["frictionAngle"]
+# What an attribute of the materials is called in the rules of pairs and in the contact, and what the contact makes of it (unit ball on a box).
+RULE = {"frictionAngle": "frictAngle", "staticFrictionAngle": "staticFrictAngle"}
+IN_CONTACT = {
+    "frictionAngle": ("tangensOfFrictionAngle", math.tan),
+    "staticFrictionAngle": ("staticFriction", math.tan),
+    "cohesionStress": ("cohesionShear", lambda c: c * math.pi),
+    "rollingFriction": ("rollingArm", lambda mu: mu),
+    "twistingFriction": ("twistingArm", lambda mu: mu),
+}
+
+
+@pytest.mark.parametrize("name", PAIR_RULES)
 def test_rules_of_pairs(name: str) -> None:
     """Default rule, and a MatchMaker of one's own."""
     mortar = {"kn": 1e6} if name == "normalDamping" else {}
-    one, two = law(**{name: 0.2, **mortar}), law(**{name: 0.6, **mortar})
+    more = {**mortar, **({"frictionAngle": 0.1} if name == "staticFrictionAngle" else {})}
+    one, two = law(**{name: 0.2, **more}), law(**{name: 0.6, **more})
     rule = {"restitutionVelocity": 0.6, "kn": 0.15, "ks": 0.15, "normalDamping": 0.15}.get(name, 0.2)
     for matched in (False, True):
         O.interactions.clear()
@@ -75,9 +88,10 @@ def test_rules_of_pairs(name: str) -> None:
         equip(1e-3)
         if matched:
             functor = engine("InteractionLoop").physDispatcher.functors[1]
-            setattr(functor, name, MatchMaker(matches=((one.id, two.id, 0.77),)))
+            setattr(functor, RULE.get(name, name), MatchMaker(matches=((one.id, two.id, 0.77),)))
         O.step()
-        assert getattr(contact(0, 1).phys, name) == pytest.approx(0.77 if matched else rule)
+        attribute, made = IN_CONTACT.get(name, (name, lambda value: value))
+        assert getattr(contact(0, 1).phys, attribute) == pytest.approx(made(0.77 if matched else rule))
 
 
 @pytest.mark.parametrize("kind", sorted(laws_cases.LAWS))

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Spheres on the seams of boundaries: see Seams.hpp.
+#include "ContactDynamicsPhys.hpp"
+#include "ContactDynamicsStep.hpp"
+#include "ParallelLoop.hpp"
+#include "ProximityGeometry.hpp"
+#include "Seams.hpp"
+#include <core/Cell.hpp>
+#include <core/Scene.hpp>
+#include <pkg/dem/ScGeom.hpp>
+#include <algorithm>
+#include <tuple>
+
+namespace yade {
+
+/// A sphere that rolls over a seam takes the start of the solve along: the impulse goes from the contact that is left to the one that follows it.
+void ContactDynamicsStep::passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts)
+{
+	constexpr Real alike = 0.9; // cosine of the angle between normals of contacts that take over from each other
+	for (std::size_t from = 0; from < contacts.size(); from++) {
+		Vector3r& impulse = group[from]->phys->impulse;
+		if (contacts[from].role != SurfaceContact::Role::left || impulse == Vector3r::Zero()) continue;
+		for (std::size_t to = 0; to < contacts.size(); to++) {
+			if (contacts[to].role == SurfaceContact::Role::left || group[to]->phys->impulse != Vector3r::Zero()) continue;
+			if (contacts[to].normal.dot(contacts[from].normal) < alike) continue;
+			group[to]->phys->impulse = impulse;
+			break;
+		}
+		impulse = Vector3r::Zero();
+	}
+}
+
+void ContactDynamicsStep::settleSurfaceSeams(const Scene& scene)
+{
+	// Links of spheres with more than one surface, by sphere and image of space, and by the surface's id within. Seldom many.
+	std::vector<int> surfacesOf(views.size(), 0);
+	const auto ofSurface = [&](const Link& link) {
+		return views[link.interaction->getId1()].radius == 0 && views[link.interaction->getId2()].radius > 0;
+	};
+	for (const Link& link : links)
+		if (ofSurface(link)) surfacesOf[link.interaction->getId2()]++;
+	std::vector<Link*> shared;
+	for (Link& link : links)
+		if (ofSurface(link) && surfacesOf[link.interaction->getId2()] > 1) shared.push_back(&link);
+	const auto image = [](const Link* link) { return std::make_tuple(link->interaction->getId2(), link->interaction->getId1()); };
+	std::sort(shared.begin(), shared.end(), [&](const Link* a, const Link* b) { return image(a) < image(b); });
+	std::vector<std::size_t> starts;
+	for (std::size_t i = 0; i < shared.size(); i++)
+		if (i == 0 || shared[i]->interaction->getId2() != shared[i - 1]->interaction->getId2()) starts.push_back(i);
+	starts.push_back(shared.size());
+
+	parallelLoop(static_cast<long>(starts.size()) - 1, [&](long group) {
+		const BodyView& sphere = views[shared[starts[group]]->interaction->getId2()];
+		const auto advanceAt = [&](const BodyView& view, const Vector3r& arm) { // of a point of the body, from the body's own position
+			const Twist& twist = free[view.index];
+			const Vector3r fromCentre = view.state->pos - views[idOfIndex[view.index]].state->pos + arm;
+			return Vector3r(h * (twist.velocity + twist.angularVelocity.cross(fromCentre)));
+		};
+		const Vector3r advance = advanceAt(sphere, Vector3r::Zero());
+		std::vector<SurfaceContact> contacts;
+		for (std::size_t i = starts[group]; i < starts[group + 1]; i++) {
+			const Interaction& interaction = *shared[i]->interaction;
+			const ScGeom& geom = static_cast<const ScGeom&>(*interaction.geom);
+			const BodyView& view = views[interaction.getId1()];
+			const Vector3r shift = scene.isPeriodic ? Vector3r(scene.cell->hSize * interaction.cellDist.cast<Real>()) : Vector3r(Vector3r::Zero());
+			const Vector3r origin = view.state->pos - sphere.state->pos - shift;
+			const Vector3r point = -(sphere.radius - geom.penetrationDepth) * geom.normal;
+			contacts.push_back({Surface(*(*scene.bodies)[interaction.getId1()]->shape, *view.state, origin), interaction.getId1(), geom.normal,
+								-geom.penetrationDepth, advanceAt(view, point - origin) - h * (velGrad * shift)});
+		}
+		settleSeams(sphere.radius, advance, contacts);
+		passOnImpulses(shared.data() + starts[group], contacts);
+		for (std::size_t i = 0; i < contacts.size(); i++) {
+			Link& link = *shared[starts[group] + i];
+			const SurfaceContact& contact = contacts[i];
+			if (contact.role == SurfaceContact::Role::left) link.solved = false;
+			if (contact.role != SurfaceContact::Role::replaced) continue;
+			const Vector3r point = sphere.state->pos - (sphere.radius + contact.gap) * contact.normal; // as if the surface were its tangent plane
+			const Vector3r shift =
+					scene.isPeriodic ? Vector3r(scene.cell->hSize * link.interaction->cellDist.cast<Real>()) : Vector3r(Vector3r::Zero());
+			updateScGeom(*link.interaction, {point + shift, contact.normal, contact.gap, sphere.radius, sphere.radius});
+		}
+	});
+}
+
+} // namespace yade

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <algorithm>
+
+namespace contactdynamics {
+
+/// Tells impulses that grow without bound from a solution: one guard for both operators.
+///
+/// Where driven walls press a body from opposite sides there is no solution. The iteration then goes on adding impulses while the approach stays, and
+/// any residual relative to the impulses falls below any tolerance in the end. A contact is *crushed* when it still closes with a tenth of its
+/// approach without impulses, -q_N > 0, though its impulse is many times the one that would stop it alone:
+///
+///     -u_N >= 0.1 (-q_N)   and   W_NN r_N >= min(1000, 0.1 / tolerance) (-q_N)   and   -q_N >= 0.01 of the largest
+///
+/// A long column or a loose tolerance can look like that for a while. So whoever finds crushed contacts at a point that meets the tolerance goes on
+/// for furtherSweeps() sweeps by the same method, without stopping, and asks stay(): without a solution the approach is the same afterwards,
+/// otherwise it is less (plain sweeps after accelerated ones do not take enough away). Rejected: sums over all contacts (one grain crushed in a heap
+/// does not show in them); going on to a twentieth of the tolerance (with impulses that are carried over from step to step that takes millions of
+/// sweeps). A chain of more than twenty grains between two walls, where each contact keeps less than a tenth, is not noticed.
+class CrushedContacts {
+public:
+	/// @param largestApproach  largest -q_N of the problem [m/s]
+	CrushedContacts(double tolerance, double largestApproach) : ratio(std::min(1000.0, 0.1 / tolerance)), least(0.01 * largestApproach) {}
+
+	/// @param qN  normal velocity without any impulse;  @param uN  at the point [m/s], gap velocity added in both
+	/// @param rN  normal impulse [N s];  @param Wnn  normal mobility [1/kg]
+	void add(double qN, double uN, double rN, double Wnn)
+	{
+		if (qN < 0 && -qN >= least && uN <= 0.1 * qN && Wnn * rN >= -ratio * qN) approach -= uN;
+	}
+	void add(const CrushedContacts& other) { approach += other.approach; }
+
+	bool any() const { return approach > 0; }
+
+	/// @param done  sweeps of the solve
+	static int furtherSweeps(int done) { return std::max(32, done); }
+
+	/// Whether they are as crushed at a later point as at this one.
+	bool stay(const CrushedContacts& later) const { return any() && later.approach >= 0.8 * approach; }
+
+private:
+	double ratio, least;
+	double approach = 0; // sum over the crushed contacts [m/s]
+};
+
+} // namespace contactdynamics
