@@ -239,7 +239,7 @@ def test_energy_balance(mask: int) -> None:
     for k in range(64):
         place = 2 * np.array([k % 4, k // 4 % 4, k // 16]) + 1 + generator.uniform(-0.05, 0.05, 3)
         grain(place, radius=0.97, velocity=generator.uniform(-1, 1, 3), spin=generator.uniform(-1, 1, 3))
-    equip(1e-3, gravity=(0, 0, 0), tolerance=1e-3)
+    equip(1e-3, gravity=(0, 0, 0), tolerance=1e-3, repairRate=0)
     c = control(stress=GOAL, velGrad=SHEARED, stressMask=mask)
     O.trackEnergy = True
 
