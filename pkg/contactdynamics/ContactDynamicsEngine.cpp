@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsEngine.hpp"
+#include "ContactDynamicsCellController.hpp"
 #include "ContactDynamicsStep.hpp"
 #include "DeferredError.hpp"
 #include "EngineOrder.hpp"
 #include "PlaneOfMotion.hpp"
+#include "OtherContacts.hpp"
 #include "Reach.hpp"
+#include "StockControllers.hpp"
 #include <core/Scene.hpp>
 #include <core/Timing.hpp>
 #include <cmath>
@@ -87,8 +90,18 @@ void ContactDynamicsEngine::collect()
 		throw std::runtime_error(message.str());
 	}
 	const NewtonIntegrator& newton = requireEngineOrder(*scene, *this);
+	requireUsableControllers(*scene, *this);
 	scene->forces.sync();
-	step->collectBodies(*scene, IntegratorPlan(*scene, newton));
+	IntegratorPlan plan(*scene, newton);
+	cellController = findCellController(*scene);
+	std::optional<contactdynamics::MeanField> cell;
+	if (cellController) {
+		otherStress = stressOfOtherContacts(*scene);
+		cell = cellController->freeMotion(*scene, otherStress);
+		plan.useVelGrad(cell->gradient);
+	}
+	step->collectBodies(*scene, plan);
+	if (cell) step->useMeanField(*cell, plan);
 	const Real scale = impulseTimeStep > 0 ? scene->dt / impulseTimeStep : 1;
 	step->collectContacts(*scene, contactLaw, warmStart ? scale : 0);
 	step->usePlane();
@@ -106,6 +119,7 @@ void ContactDynamicsEngine::solve()
 	if (report.status == contactdynamics::SolveStatus::notFinite)
 		throw std::runtime_error("ContactDynamicsEngine: the contact problem of step " + std::to_string(scene->iter) +
 								 " has values that are not finite (external force, inertia or contact geometry); no body was moved.");
+	if (cellController) ContactDynamicsCellController::requireSmallStrain(*scene, step->problem.meanField->gradient);
 	if (converged || onNonConvergence == "ignore") return;
 	std::ostringstream message;
 	if (report.status == contactdynamics::SolveStatus::unbounded)
@@ -126,6 +140,7 @@ void ContactDynamicsEngine::apply()
 {
 	step->elasticEnergy = elasticEnergy;
 	step->apply(*scene);
+	if (cellController) cellController->apply(*scene, step->problem.meanField->gradient, step->moment(), otherStress);
 	elasticEnergy = step->elasticEnergy;
 	impulseTimeStep = scene->dt;
 	contacts = static_cast<int>(step->problem.contacts.size());

@@ -6,6 +6,8 @@
 
 namespace yade {
 
+class ContactDynamicsCellController;
+
 class ContactDynamicsEngine : public GlobalEngine {
 public:
 	/// One step: gather the scene into a problem, solve it in place, scatter the reactions into O.forces and the contacts.
@@ -23,6 +25,8 @@ public:
 private:
 	struct Step; // problem, solver and what connects them with the scene; kept between steps so that memory is allocated once
 	std::shared_ptr<Step> step;
+	ContactDynamicsCellController* cellController = nullptr; // of this step
+	Matrix3r otherStress = Matrix3r::Zero();				 // of interactions that are not part of the solve, where the cell has a controller [Pa]
 
 	void collect();
 	void solve();

@@ -81,6 +81,7 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 	motions.resize(idOfIndex.size());
 	free.resize(idOfIndex.size());
 	problem.bodies.resize(idOfIndex.size());
+	problem.meanField.reset();
 
 	parallelLoop(static_cast<long>(idOfIndex.size()), [&](long index) {
 		const int id = idOfIndex[index];
@@ -180,7 +181,7 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 	contact.body2 = view2.index;
 	contact.ball = view1.ball && view2.ball;
 	// An image is carried by the cell: at the next step it stands at pos + hSize·cellDist with the hSize of then.
-	if (scene.isPeriodic) contact.imageVelocity = velGrad * shift;
+	if (scene.isPeriodic && !problem.meanField) contact.imageVelocity = velGrad * shift;
 
 	const auto fromMassCentre = [&](const BodyView& view, const Vector3r& arm) {
 		return view.member ? Vector3r(arm + view.state->pos - views[idOfIndex[view.index]].state->pos) : arm;
@@ -188,12 +189,13 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 	contact.arm1 = fromMassCentre(view1, link.arm1);
 	contact.arm2 = fromMassCentre(view2, link.arm2);
 	// The velocity of a fixed body at the contact point is known. Given as a shift it leaves no arm across the normal, so that a ball
-	// on a turning box keeps the closed form.
-	if (view1.fixed) {
+	// on a turning box keeps the closed form. A mean field needs the arms.
+	if (problem.meanField) contact.ball = contact.ball && view1.radius > 0 && view2.radius > 0;
+	if (view1.fixed && !problem.meanField) {
 		contact.imageVelocity -= free[view1.index].angularVelocity.cross(contact.arm1);
 		contact.arm1 = Vector3r::Zero();
 	}
-	if (view2.fixed) {
+	if (view2.fixed && !problem.meanField) {
 		contact.imageVelocity += free[view2.index].angularVelocity.cross(contact.arm2);
 		contact.arm2 = Vector3r::Zero();
 	}
@@ -231,17 +233,18 @@ ContactDynamicsStep::Twist ContactDynamicsStep::atStart(int index) const
 
 Vector3r ContactDynamicsStep::relativeVelocity(const contactdynamics::Contact& contact, const Twist& of1, const Twist& of2) const
 {
-	return of2.velocity + of2.angularVelocity.cross(contact.arm2) + contact.imageVelocity - of1.velocity - of1.angularVelocity.cross(contact.arm1);
+	Vector3r U =
+			of2.velocity + of2.angularVelocity.cross(contact.arm2) + contact.imageVelocity - of1.velocity - of1.angularVelocity.cross(contact.arm1);
+	if (problem.meanField) U += velGrad * shiftOf(contact);
+	return U;
 }
 
 /// Whether contact is forecast in the sense of (23): the gap is closed, or will be with the velocity of now or with the free velocity.
 bool ContactDynamicsStep::forecast(const Link& link, const contactdynamics::Contact& contact) const
 {
 	if (link.gap <= 0) return true;
-	const auto closes = [&](const Twist& of1, const Twist& of2) {
-		return link.gap + h * contact.normal.dot(relativeVelocity(contact, of1, of2)) <= 0;
-	};
-	return closes(free[contact.body1], free[contact.body2]) || closes(atStart(contact.body1), atStart(contact.body2));
+	const auto closes = [&](const Vector3r& velocity) { return link.gap + h * contact.normal.dot(velocity) <= 0; };
+	return closes(relativeVelocity(contact, free[contact.body1], free[contact.body2])) || closes(velocityAtStart(contact));
 }
 
 void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string& contactLaw, Real warmStart)
@@ -283,8 +286,7 @@ void ContactDynamicsStep::shiftContacts(Real warmStart)
 		const Link& link = links[i];
 		if (link.plain) continue;
 		const contactdynamics::Contact& contact = problem.contacts[i];
-		shifted.shift(problem, static_cast<int>(i), *link.phys,
-					  {link.gap, relativeVelocity(contact, atStart(contact.body1), atStart(contact.body2)), forecast(link, contact), link.swapped});
+		shifted.shift(problem, static_cast<int>(i), *link.phys, {link.gap, velocityAtStart(contact), forecast(link, contact), link.swapped});
 		if (link.phys->rollingArm > 0 || link.phys->twistingArm > 0) rolling.add(static_cast<int>(i), *link.phys, link.swapped, warmStart);
 	}
 }
@@ -308,7 +310,9 @@ contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxI
 	options.maxIterations = maxIterations;
 	if (!accelerated) options.acceleration = contactdynamics::Acceleration::none;
 	options.threads = omp_get_max_threads();
+	if (problem.meanField) toMeanField();
 	const auto report = rolling.empty() ? solver.solve(problem, options) : rolling.solve(solver, problem, options);
+	if (problem.meanField) fromMeanField();
 	solved = report.status != contactdynamics::SolveStatus::notFinite;
 	return report;
 }

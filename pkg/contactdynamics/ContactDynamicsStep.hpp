@@ -6,6 +6,7 @@
 #include "ShiftedContacts.hpp"
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
+#include <optional>
 #include <pkg/solver/BlockProblem.hpp>
 #include <pkg/solver/SignoriniCoulombSolver.hpp>
 #include <string>
@@ -42,7 +43,11 @@ struct ContactDynamicsStep {
 	void collectContacts(const Scene& scene, const std::string& contactLaw, Real warmStart);
 	/// After collectContacts(): recognises a two-dimensional scene, whose disks are solved as balls.
 	void usePlane();
+	/// After collectBodies(): the periodic cell has inertia and moves with the contacts. The velocities collected hold the gradient of the field.
+	void useMeanField(const contactdynamics::MeanField& field, const IntegratorPlan& plan);
 	contactdynamics::SolveReport solve(Real tolerance, int maxIterations, bool accelerated);
+	/// After apply(): what the contacts sustain, Σ r ⊗ b over them (impulse on body 2, vector from mass centre 1 to 2) [N m s].
+	Matrix3r moment() const;
 	void apply(Scene& scene);
 	/// After apply(): displaces bodies that overlap, see PenetrationRepair.
 	/// @param rate     largest share of an overlap that is taken away [-], 0 ... 1; 0 only measures
@@ -93,7 +98,11 @@ private:
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;
 	Twist atStart(int index) const;
 	Vector3r relativeVelocity(const contactdynamics::Contact& contact, const Twist& of1, const Twist& of2) const;
+	Vector3r velocityAtStart(const contactdynamics::Contact& contact) const;
+	Vector3r shiftOf(const contactdynamics::Contact& contact) const;
 	void shiftContacts(Real warmStart);
+	void toMeanField();
+	void fromMeanField();
 	void trackEnergy(Scene& scene);
 	Real powerOnPrescribed(int index, const Vector3r& force, const Vector3r& torque) const;
 	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
@@ -112,6 +121,8 @@ private:
 	std::vector<BodyView> views;						  // by body id
 	std::vector<int> idOfIndex;
 	std::vector<FreeMotion> motions;				 // by solver index
+	std::vector<Vector3r> places;					 // likewise, where there is a mean field: positions [m]
+	std::optional<IntegratorPlan> planOfField;		 // where there is a mean field
 	std::vector<std::vector<Interaction*>> gathered; // by thread
 	std::vector<Link> links;						 // parallel to problem.contacts once collected
 	std::vector<Manifold> manifolds;

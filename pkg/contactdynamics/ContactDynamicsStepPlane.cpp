@@ -4,6 +4,14 @@
 #include "PlaneOfMotion.hpp"
 
 namespace yade {
+namespace {
+/// A mean field acts on the vector between the centres, which the closed form takes to be along the normal.
+bool alongNormal(const contactdynamics::Contact& contact)
+{
+	const Vector3r branch = contact.arm1 - contact.arm2;
+	return branch.cross(contact.normal).norm() <= 1e-14 * branch.norm();
+}
+} // namespace
 
 void ContactDynamicsStep::usePlane()
 {
@@ -14,7 +22,8 @@ void ContactDynamicsStep::usePlane()
 		if (!view.state || view.member) continue;
 		disk[view.index] = view.fixed || (view.radius > 0 && PlaneOfMotion::completeAsBall(problem.bodies[view.index], planeAxis));
 	}
-	for (contactdynamics::Contact& contact : problem.contacts) contact.ball = disk[contact.body1] && disk[contact.body2];
+	for (contactdynamics::Contact& contact : problem.contacts)
+		contact.ball = disk[contact.body1] && disk[contact.body2] && (contact.ball || !problem.meanField || alongNormal(contact));
 }
 
 } // namespace yade

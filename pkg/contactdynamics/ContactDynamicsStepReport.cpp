@@ -67,7 +67,7 @@ void ContactDynamicsStep::trackEnergy(Scene& scene)
 	for (std::size_t i = 0; i < links.size(); i++) {
 		const contactdynamics::Contact& contact = problem.contacts[i];
 		if (contact.impulse == Vector3r::Zero() && !(links[i].phys->kn > 0 || links[i].phys->ks > 0)) continue;
-		const Vector3r start = relativeVelocity(contact, atStart(contact.body1), atStart(contact.body2));
+		const Vector3r start = velocityAtStart(contact);
 		energy.add(*links[i].phys, contact.normal, contact.impulse, start, contact.relativeVelocity,
 				   links[i].gap + 0.5 * h * contact.normal.dot(contact.relativeVelocity), shifted.isImpact(static_cast<int>(i)), bonded[i]);
 	}

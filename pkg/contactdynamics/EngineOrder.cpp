@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "EngineOrder.hpp"
+#include "ContactDynamicsCellController.hpp"
 #include <core/InteractionLoop.hpp>
 #include <core/PartialEngine.hpp>
 #include <core/Scene.hpp>
@@ -57,6 +58,8 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 			loopBefore |= !passed;
 			lawBefore |= hasLawForUs(*loop);
 		}
+		require(name != "ContactDynamicsTriaxialController" || !passed,
+				"ContactDynamicsTriaxialController stands behind this engine in O.engines, so the contacts would not feel its walls; put it before.");
 		if (const auto* candidate = dynamic_cast<const NewtonIntegrator*>(other.get())) {
 			newton = candidate;
 			newtonBehind = passed;
@@ -81,6 +84,26 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 	require(newton->damping == 0,
 			"NewtonIntegrator.damping is " + damping.str() + "; it must be 0: damped velocities no longer satisfy the contact law.");
 	return *newton;
+}
+
+ContactDynamicsCellController* findCellController(const Scene& scene)
+{
+	ContactDynamicsCellController* found = nullptr;
+	for (const auto& engine : scene.engines) {
+		if (!engine || engine->dead) continue;
+		auto* controller = dynamic_cast<ContactDynamicsCellController*>(engine.get());
+		require(!controller || !found,
+				"there are two live ContactDynamicsCellControllers in O.engines; one of them moves the cell. Remove one or set it dead.");
+		if (!controller) continue;
+		found = controller;
+		for (const auto& other : scene.engines) {
+			if (!other || other->dead) continue;
+			const std::string name = other->getClassName();
+			require(name != "PeriTriaxController" && name != "Peri3dController",
+					name + " and ContactDynamicsCellController stand in O.engines; one of them moves the cell. Remove one or set it dead.");
+		}
+	}
+	return found;
 }
 
 } // namespace yade

@@ -3,6 +3,7 @@
 
 namespace yade {
 
+class ContactDynamicsCellController;
 class Engine;
 class NewtonIntegrator;
 class Scene;
@@ -13,5 +14,9 @@ class Scene;
 /// GlobalStiffnessTimeStepper (rigid contacts have no stiffness to take a time step from).
 /// @throws std::runtime_error  naming what is missing or misplaced and how to mend it
 const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& engine);
+
+/// The live ContactDynamicsCellController of the scene, or null.
+/// @throws std::runtime_error  there are two
+ContactDynamicsCellController* findCellController(const Scene& scene);
 
 } // namespace yade

@@ -13,7 +13,12 @@ IntegratorPlan::IntegratorPlan(const Scene& scene, const NewtonIntegrator& newto
 {
 	const Cell& cell = *scene.cell;
 	const bool changes = cell.velGradChanged || cell.nextVelGrad != Matrix3r::Zero();
-	velGrad = changes ? cell.nextVelGrad : cell.velGrad;
+	useVelGrad(changes ? cell.nextVelGrad : cell.velGrad);
+}
+
+void IntegratorPlan::useVelGrad(const Matrix3r& gradient)
+{
+	velGrad = gradient;
 	if (periodic) requireFiniteGradient(velGrad);
 	velGradChange = velGrad - prevVelGrad;
 	const Matrix3r spin = .5 * (velGradChange - velGradChange.transpose());

@@ -20,6 +20,8 @@ struct IntegratorPlan {
 	Vector3r spinChange;						  // [rad/s]
 
 	IntegratorPlan(const Scene& scene, const NewtonIntegrator& newton);
+	/// The same plan with another gradient to switch to.
+	void useVelGrad(const Matrix3r& gradient);
 	/// Velocity before the step that has the same effect on the velocity after it as a displacement before the step, per displacement [1/s]:
 	/// the mean field of a periodic cell that changes in this step. Zero otherwise.
 	Matrix3r velocityOfDisplacement() const;

@@ -51,9 +51,11 @@ contactdynamics::SolveReport RollingFriction::solve(contactdynamics::SignoriniCo
 													const contactdynamics::SolverOptions& options)
 {
 	free = problem.bodies;
+	freeField = problem.meanField;
 	int iterations = 0;
 	for (int pass = 1;; pass++) {
 		problem.bodies = free;
+		problem.meanField = freeField;
 		for (const Row& row : rows) {
 			const auto& contact = problem.contacts[row.contact];
 			auto &one = problem.bodies[contact.body1], &two = problem.bodies[contact.body2];

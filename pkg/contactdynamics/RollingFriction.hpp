@@ -42,6 +42,7 @@ private:
 	std::vector<Row> rows;
 	std::vector<Vector3r> improved, spin; // by row; by body
 	std::vector<contactdynamics::Body> free;
+	std::optional<contactdynamics::MeanField> freeField;
 };
 
 } // namespace yade

@@ -104,6 +104,7 @@ void ShiftedContacts::shift(contactdynamics::GrainProblem& problem, int index, C
 		one.angularVelocity += one.inverseInertia * contact.arm1.cross(pull);
 		two.velocity -= two.inverseMass.cwiseProduct(pull);
 		two.angularVelocity -= two.inverseInertia * contact.arm2.cross(pull);
+		if (problem.meanField) problem.meanField->gradient = problem.meanField->gradientWith(-pull * (contact.arm1 - contact.arm2).transpose());
 	}
 	shifts.push_back(made);
 }

@@ -44,12 +44,19 @@ struct SweepNorms {
 	double impulse2 = 0;   ///< sum of r^T W r [J]
 };
 
+/// The mean field as one sweep sees it; matrices row by row.
+struct FieldPass {
+	double gradient[9]; ///< L, the same for the whole sweep: contacts of a colour may be visited in any order [1/s]
+	double moment[9];	///< in and out: sum of dr b^T over the contacts visited [kg m2/s]
+};
+
 /// One visit of each contact of the packs, in any order: exact one-contact solution for W = diag(Wn, Wt, Wt) at the
 /// extrapolated impulse; the velocities are expected extrapolated already.
-using BallSweep = SweepNorms (*)(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation);
+/// @param field  null where there is no mean field
+using BallSweep = SweepNorms (*)(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field);
 
-SweepNorms ballSweepBaseline(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation);
-SweepNorms ballSweepAvx2(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation);
+SweepNorms ballSweepBaseline(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field);
+SweepNorms ballSweepAvx2(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field);
 
 /// The widest version this machine can run. All versions give the same bits.
 BallSweep selectBallSweep();

@@ -47,6 +47,23 @@ inline void store(double (*p)[4], const Vector& a)
 	store(p[2], a.z);
 }
 
+inline Vector operator*(const double* L, const Vector& a)
+{
+	const auto row = [&](int i) { return all(L[i]) * a.x + all(L[i + 1]) * a.y + all(L[i + 2]) * a.z; };
+	return {row(0), row(3), row(6)};
+}
+inline void addMoment(Wide* moment, const Vector& r, const Vector& n)
+{
+	const auto add = [&](int i, Wide component) {
+		moment[i] += component * n.x;
+		moment[i + 1] += component * n.y;
+		moment[i + 2] += component * n.z;
+	};
+	add(0, r.x);
+	add(3, r.y);
+	add(6, r.z);
+}
+
 /// Velocities and mobilities of one side of the four contacts.
 struct Side {
 	Vector v, w;
@@ -89,10 +106,10 @@ inline double sum(Wide a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
 } // namespace
 
-SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation)
+SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field)
 {
 	const Wide zero = all(0), relax = all(extrapolation.relax), momentum = all(extrapolation.momentum);
-	Wide increment2 = zero, impulse2 = zero;
+	Wide increment2 = zero, impulse2 = zero, moment[9]{};
 	constexpr std::size_t ahead = 6; // packs: their bodies lie anywhere in memory, and only we know where
 	for (BallPack* pack = packs; pack != packs + count; ++pack) {
 		if (pack + ahead < packs + count) prefetchBodies(bodies, pack[ahead]);
@@ -100,7 +117,8 @@ SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, std::size_t count, Ext
 		const Vector n = load(pack->normal);
 		const Wide arm1 = load(pack->arm1), arm2 = load(pack->arm2);
 		// v + w x (arm n) on both sides
-		const Vector u = (two.v - one.v) + cross(arm2 * two.w - arm1 * one.w, n);
+		Vector u = (two.v - one.v) + cross(arm2 * two.w - arm1 * one.w, n);
+		if (field) u = u + (arm1 - arm2) * (field->gradient * n);
 		const Wide un = dot(u, n);
 		const Vector ut = u - un * n;
 
@@ -122,6 +140,7 @@ SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, std::size_t count, Ext
 
 		const Wide Wn = one.inverseMass + two.inverseMass;
 		const Wide Wt = Wn + arm1 * arm1 * one.inverseInertia + arm2 * arm2 * two.inverseInertia;
+		if (field) addMoment(moment, (arm1 - arm2) * dr, n);
 		const Wide dn = rn - xn;
 		increment2 += Wn * dn * dn + Wt * (dot(dr, dr) - dn * dn);
 		impulse2 += Wn * rn * rn + Wt * dot(rt, rt);
@@ -134,6 +153,8 @@ SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, std::size_t count, Ext
 		scatter(bodies, pack->body1, one);
 		scatter(bodies, pack->body2, two);
 	}
+	if (field)
+		for (int i = 0; i < 9; ++i) field->moment[i] += sum(moment[i]);
 	return {sum(increment2), sum(impulse2)};
 }
 

@@ -29,21 +29,25 @@ Matrix3 localDelassus(const Body& body1, const Body& body2, const Contact& conta
 	return 0.5 * (W + W.transpose());
 }
 
-SweepNorms visit(GeneralContact& c, BodyState* bodies, const Body* mobility, Extrapolation extrapolation)
+SweepNorms visit(GeneralContact& c, BodyState* bodies, const Body* mobility, Extrapolation extrapolation, FieldPass* field)
 {
 	using Map = Eigen::Map<Vector3>;
+	using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 	const std::int32_t i1 = c.body1 < 0 ? ~c.body1 : c.body1, i2 = c.body2 < 0 ? ~c.body2 : c.body2;
 	Map v1(bodies[i1].velocity), w1(bodies[i1].angularVelocity), v2(bodies[i2].velocity), w2(bodies[i2].angularVelocity);
 
 	const Vector3 ahead = extrapolation.relax * c.increment + extrapolation.momentum * c.direction;
 	const Vector3 x = c.impulse + ahead;
 	c.direction = c.increment + ahead;
-	const Vector3 u = c.frame * (v2 - v1 + w2.cross(c.arm2) - w1.cross(c.arm1)) + c.offset;
+	Vector3 U = v2 - v1 + w2.cross(c.arm2) - w1.cross(c.arm1);
+	if (field) U += Eigen::Map<const Matrix>(field->gradient) * (c.arm1 - c.arm2);
+	const Vector3 u = c.frame * U + c.offset;
 	const Vector3 r = c.local.solve(u + c.compliance.cwiseProduct(x) - c.W * x, c.friction), dr = r - x;
 	c.impulse = r;
 	c.increment = dr;
 
 	const Vector3 push = c.frame.transpose() * dr;
+	if (field) Eigen::Map<Matrix>(field->moment) += push * (c.arm1 - c.arm2).transpose();
 	if (c.body1 >= 0) {
 		v1 -= mobility[i1].inverseMass.cwiseProduct(push);
 		w1 -= mobility[i1].inverseInertia * c.arm1.cross(push);

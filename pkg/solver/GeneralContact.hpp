@@ -28,7 +28,7 @@ Matrix3 contactFrame(const Vector3& normal);
 Matrix3 localDelassus(const Body& body1, const Body& body2, const Contact& contact, const Matrix3& frame);
 
 /// One visit, as BallSweep does it for balls.
-/// @param bodies  state of the sweep;  @param mobility  inverse masses and inertias of the same bodies
-SweepNorms visit(GeneralContact& contact, BodyState* bodies, const Body* mobility, Extrapolation extrapolation);
+/// @param bodies  state of the sweep;  @param mobility  inverse masses and inertias of the same bodies;  @param field  null: no mean field
+SweepNorms visit(GeneralContact& contact, BodyState* bodies, const Body* mobility, Extrapolation extrapolation, FieldPass* field);
 
 } // namespace contactdynamics

@@ -61,7 +61,7 @@ double GrainOperator::speedsAt(const Contact& c) const
 	const BodyState &b1 = state[c.body1], &b2 = state[c.body2];
 	const auto size = [](const auto& vector) { return vector.cwiseAbs().sum(); };
 	return size(velocity(b1)) + size(velocity(b2)) + size(angularVelocity(b1)) * size(c.arm1) + size(angularVelocity(b2)) * size(c.arm2) +
-		   size(c.imageVelocity) + std::abs(c.gapVelocity);
+		   size(c.imageVelocity) + std::abs(c.gapVelocity) + (hasField() ? size(gradient) * size(c.arm1 - c.arm2) : 0);
 }
 
 void GrainOperator::freeVelocities()
@@ -95,7 +95,8 @@ GrainOperator::Sums GrainOperator::certify(std::size_t first, std::size_t last)
 	for (std::size_t i = first; i < last; ++i) {
 		Contact& c = problem->contacts[i];
 		const BodyState &b1 = state[c.body1], &b2 = state[c.body2];
-		const Vector3 U = velocity(b2) + c.imageVelocity - velocity(b1) + angularVelocity(b2).cross(c.arm2) - angularVelocity(b1).cross(c.arm1);
+		Vector3 U = velocity(b2) + c.imageVelocity - velocity(b1) + angularVelocity(b2).cross(c.arm2) - angularVelocity(b1).cross(c.arm1);
+		if (hasField()) U += gradient * (c.arm1 - c.arm2);
 		c.relativeVelocity = U;
 		const double rn = impulses[i].dot(c.normal), un = U.dot(c.normal) + c.gapVelocity + c.normalCompliance * rn;
 		result.approach = std::max(result.approach, -un);
@@ -126,6 +127,7 @@ double GrainOperator::certificate()
 {
 	collectImpulses();
 	rebuildVelocities();
+	if (hasField()) sumMoment();
 	const std::size_t count = problem->contacts.size();
 	sums.assign((count + perRun - 1) / perRun, Sums{});
 	share(sums.size(), [&](std::size_t k) { sums[k] = certify(k * perRun, std::min(count, (k + 1) * perRun)); });
@@ -175,6 +177,7 @@ void GrainOperator::finish(SolveReport& report)
 		bodies[i].velocity = velocity(state[i]);
 		bodies[i].angularVelocity = angularVelocity(state[i]);
 	});
+	if (hasField()) problem->meanField->gradient = gradient;
 	report.maxApproachSpeed = maxApproachSpeed;
 	inRuns(impulses.size(), [this](std::size_t i) { finishContact(problem->contacts[i], impulses[i]); });
 	report.activeContacts =

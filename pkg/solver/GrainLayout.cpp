@@ -14,7 +14,8 @@ void GrainOperator::putSleeper(std::int32_t id)
 {
 	const Contact& c = problem->contacts[id];
 	impulses[id].setZero();
-	sleepers.push_back({c.normal, c.ball ? c.gapVelocity + c.imageVelocity.dot(c.normal) : c.gapVelocity, c.body1, c.body2, id, !c.ball});
+	sleepers.push_back({c.normal, c.ball ? c.gapVelocity + c.imageVelocity.dot(c.normal) : c.gapVelocity, c.normal.dot(c.arm1 - c.arm2), c.body1,
+						c.body2, id, !c.ball});
 }
 
 void GrainOperator::putBall(BallPack& pack, int lane, std::int32_t id) const
@@ -34,8 +35,8 @@ void GrainOperator::putBall(BallPack& pack, int lane, std::int32_t id) const
 	pack.friction[lane] = c.friction;
 	pack.arm1[lane] = a1;
 	pack.arm2[lane] = a2;
-	pack.inverseWn[lane] = Wn > 0 ? 1 / Wn : 0;
-	pack.inverseWt[lane] = Wt > 0 ? 1 / Wt : 0;
+	pack.inverseWn[lane] = Wn > 0 ? 1 / mobility(Wn, c) : 0;
+	pack.inverseWt[lane] = Wt > 0 ? 1 / mobility(Wt, c) : 0;
 }
 
 void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id) const
@@ -52,6 +53,7 @@ void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id) const
 	g.compliance = {c.normalCompliance, c.tangentialCompliance, c.tangentialCompliance};
 	g.W = localDelassus(problem->bodies[c.body1], problem->bodies[c.body2], c, g.frame);
 	g.W.diagonal() += g.compliance;
+	if (hasField() && g.W(0, 0) > 0) g.W.diagonal().array() += mobility(g.W(0, 0), c) - g.W(0, 0);
 	g.friction = c.friction;
 	g.local = OneContact(g.W);
 	g.impulse = g.frame * impulses[id];

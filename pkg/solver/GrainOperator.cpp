@@ -33,6 +33,7 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 		const bool none = c.impulse.isZero(0) || !(movable[c.body1] || movable[c.body2]);
 		impulses[i] = none ? Vector3(Vector3::Zero()) : insideCone(c.impulse, c.normal, c.friction);
 	});
+	startField();
 	freeVelocities();
 	sums.resize(contacts.size());
 	inRuns(contacts.size(), [&](std::size_t i) {
@@ -50,9 +51,12 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 		for (Vector3& impulse : impulses) impulse.setZero();
 	for (std::size_t i = 0; i < impulses.size(); ++i)
 		if (!impulses[i].isZero(0)) addImpulse(contacts[i], impulses[i]);
+	if (hasField()) sumMoment();
 	if (accelerated) {
 		sweepStart = state;
 		direction.assign(state.size(), BodyState{});
+		momentStart = moment;
+		momentDirection.setZero();
 	}
 
 	// Awake at first: what carries an impulse, closes, or could be closed by a change of velocity as large as the fastest approach.
@@ -82,13 +86,15 @@ double GrainOperator::normalVelocity(const Contact& c) const
 	const BodyState &b1 = state[c.body1], &b2 = state[c.body2];
 	Vector3 u = velocity(b2) + c.imageVelocity - velocity(b1);
 	if (!c.ball) u += angularVelocity(b2).cross(c.arm2) - angularVelocity(b1).cross(c.arm1);
+	if (hasField()) u += gradient * (c.arm1 - c.arm2);
 	return u.dot(c.normal);
 }
 
 double GrainOperator::normalVelocity(const Sleeper& s) const
 {
 	if (s.turns) return normalVelocity(problem->contacts[s.id]);
-	return (velocity(state[s.body2]) - velocity(state[s.body1])).dot(s.normal);
+	const double field = hasField() ? s.reach * s.normal.dot(gradient * s.normal) : 0;
+	return (velocity(state[s.body2]) - velocity(state[s.body1])).dot(s.normal) + field;
 }
 
 void GrainOperator::extrapolate(Extrapolation by, std::size_t i)
@@ -104,11 +110,11 @@ void GrainOperator::extrapolate(Extrapolation by, std::size_t i)
 	}
 }
 
-void GrainOperator::visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by)
+void GrainOperator::visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by, FieldPass* field)
 {
-	norms = chunk.packs ? ballSweep(state.data(), packs.data() + chunk.firstPack, chunk.packs, by) : SweepNorms{};
+	norms = chunk.packs ? ballSweep(state.data(), packs.data() + chunk.firstPack, chunk.packs, by, field) : SweepNorms{};
 	for (std::size_t k = chunk.firstGeneral; k < chunk.firstGeneral + chunk.generals; ++k) {
-		const SweepNorms one = contactdynamics::visit(generals[k], state.data(), problem->bodies.data(), by);
+		const SweepNorms one = contactdynamics::visit(generals[k], state.data(), problem->bodies.data(), by, field);
 		norms.increment2 += one.increment2;
 		norms.impulse2 += one.impulse2;
 	}
@@ -117,10 +123,15 @@ void GrainOperator::visit(const Chunk& chunk, SweepNorms& norms, Extrapolation b
 SweepNorms GrainOperator::sweep(Extrapolation by)
 {
 	chunkNorms.resize(chunks.size());
+	if (hasField()) startFieldPass(by);
 	const std::size_t bodies = problem->bodies.size();
 	if (accelerated) inRuns(bodies, [&](std::size_t i) { extrapolate(by, i); });
 	for (const Group& group : groups)
-		share(group.lastChunk - group.firstChunk, [&](std::size_t k) { visit(chunks[group.firstChunk + k], chunkNorms[group.firstChunk + k], by); });
+		share(group.lastChunk - group.firstChunk, [&](std::size_t k) {
+			const std::size_t i = group.firstChunk + k;
+			visit(chunks[i], chunkNorms[i], by, hasField() ? &chunkFields[i] : nullptr);
+		});
+	if (hasField()) finishFieldPass();
 	++sweeps;
 	lastNorms = {};
 	for (const SweepNorms& one : chunkNorms) {

@@ -51,6 +51,7 @@ private:
 	struct Sleeper {
 		Vector3 normal;
 		double offset; // gap velocity plus image velocity along the normal
+		double reach;  // arms along the normal, body 1 minus body 2: what the mean field acts on
 		std::int32_t body1, body2, id;
 		bool turns; // the rotation of the bodies changes the normal velocity
 	};
@@ -74,6 +75,13 @@ private:
 	double largestFreeApproach = 0; // without any impulse [m/s]
 	double speedLimit = 0;			// speeds above it, 1000 times the fastest at the start, are no excuse for round-off: the iterate diverges [m/s]
 	SweepNorms lastNorms;
+
+	// The mean field: sum of r b^T over all contacts [kg m2/s], now, at the start of the last sweep, and in the search direction; L that goes with
+	// it.
+	Matrix3 moment = Matrix3::Zero(), momentStart = Matrix3::Zero(), momentDirection = Matrix3::Zero(), gradient = Matrix3::Zero();
+	double fieldStep = 0; // see start()
+	std::vector<FieldPass> chunkFields;
+	std::vector<Matrix3> runMoments;
 
 	std::vector<BodyState> state, sweepStart, direction; // velocities now, at the start of the last sweep, and of the search direction
 	std::vector<std::uint8_t> movable;
@@ -118,12 +126,18 @@ private:
 	void putSleeper(std::int32_t id);
 	void letIdleSleep();
 	void extrapolate(Extrapolation by, std::size_t body);
-	void visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by);
+	bool hasField() const { return problem->meanField.has_value(); }
+	void startField();
+	void startFieldPass(Extrapolation by);
+	void finishFieldPass();
+	double mobility(double W, const Contact& c) const;
+	void visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by, FieldPass* field);
 	void collectImpulses();
 	double speedsAt(const Contact& c) const;
 	bool mayStandStill() const;
 	void freeVelocities();
 	void rebuildVelocities();
+	void sumMoment();
 	Sums certify(std::size_t first, std::size_t last);
 };
 

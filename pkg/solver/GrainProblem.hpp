@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace contactdynamics {
@@ -38,11 +41,38 @@ struct Contact {
 	ContactStatus status = ContactStatus::none; ///< out
 };
 
+/// A velocity gradient L that all bodies share, such as that of a periodic cell with inertia of its own: one more body, which every contact sees.
+///
+/// The velocities of the bodies are those relative to the mean field, and U of a contact gains L b, where b = arm1 - arm2 is the vector between the
+/// two mass centres, from body 1 to (the image of) body 2. By virtual work an impulse r then changes L: M dL = sym(r b^T), component by component.
+/// Only the symmetric part of L responds: a rotation of everything does no work.
+struct MeanField {
+	Matrix3 gradient = Matrix3::Zero();	   ///< in: without contact impulses; out: at the solution [1/s]
+	Matrix3 inverseMass = Matrix3::Zero(); ///< 1/M, symmetric, 0 where the component is prescribed [1/(kg m2)]
+	double limit =
+			std::numeric_limits<double>::infinity(); ///< bound on components of sym(L) with inverseMass > 0, held by whatever force it takes [1/s]
+
+	/// L with the contact impulses, given the sum of r b^T over all contacts [kg m2/s].
+	Matrix3 gradientWith(const Matrix3& moment) const
+	{
+		const Matrix3 free = 0.5 * (gradient + gradient.transpose()), push = 0.5 * (moment + moment.transpose());
+		Matrix3 L = gradient;
+		for (int i = 0; i < 3; ++i)
+			for (int j = 0; j < 3; ++j) {
+				if (!(inverseMass(i, j) > 0)) continue;
+				const double stretch = free(i, j) + inverseMass(i, j) * push(i, j);
+				L(i, j) = std::min(limit, std::max(-limit, stretch)) + 0.5 * (gradient(i, j) - gradient(j, i));
+			}
+		return L;
+	}
+};
+
 /// The Signorini-Coulomb problem of a collection of rigid bodies, matrix-free: W = H^T M^-1 H (28)-(30) of Jean (1999) is never assembled.
 /// Filled by the caller every step; the vectors are meant to be kept, so that no memory is allocated once warm.
 struct GrainProblem {
 	std::vector<Body> bodies;
 	std::vector<Contact> contacts;
+	std::optional<MeanField> meanField;
 };
 
 } // namespace contactdynamics

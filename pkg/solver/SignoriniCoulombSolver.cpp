@@ -52,6 +52,15 @@ void requireContacts(const GrainProblem& problem)
 	}
 }
 
+void requireField(const GrainProblem& problem)
+{
+	if (!problem.meanField) return;
+	const MeanField& field = *problem.meanField;
+	if (field.inverseMass.minCoeff() < 0) throw std::invalid_argument("MeanField::inverseMass has a negative component, must be >= 0");
+	if (field.inverseMass != field.inverseMass.transpose()) throw std::invalid_argument("MeanField::inverseMass is not symmetric");
+	if (!(field.limit > 0)) throw std::invalid_argument("MeanField::limit is " + std::to_string(field.limit) + ", must be > 0");
+}
+
 /// Mates are awake during a solve, whichever way it is left.
 class AtWork {
 public:
@@ -68,6 +77,7 @@ bool isFinite(const GrainProblem& problem)
 {
 	double poison = 0; // zero times a finite number is zero, times anything else not a number
 	for (const Body& b : problem.bodies) poison += 0 * (b.velocity.sum() + b.angularVelocity.sum() + b.inverseMass.sum() + b.inverseInertia.sum());
+	if (problem.meanField) poison += 0 * (problem.meanField->gradient.sum() + problem.meanField->inverseMass.sum());
 	for (const Contact& c : problem.contacts)
 		poison += 0 * (c.normal.sum() + c.arm1.sum() + c.arm2.sum() + c.imageVelocity.sum() + c.impulse.sum() + c.friction + c.gapVelocity +
 					   c.normalCompliance + c.tangentialCompliance);
@@ -95,6 +105,7 @@ SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOpt
 {
 	requireOptions(options);
 	requireContacts(problem);
+	requireField(problem);
 	SolveReport report;
 	report.status = SolveStatus::notFinite;
 	if (!isFinite(problem)) return report;

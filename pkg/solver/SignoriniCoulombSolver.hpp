@@ -20,7 +20,7 @@ public:
 	SignoriniCoulombSolver& operator=(const SignoriniCoulombSolver&) = delete;
 
 	/// Solves in place, starting from Contact::impulse. On return every impulse is inside its cone and the body velocities are
-	/// free velocity + M^-1 H R of exactly these impulses.
+	/// free velocity + M^-1 H R of exactly these impulses, MeanField::gradient likewise.
 	/// @throws std::invalid_argument  body index out of range or equal, normal not of unit length, friction negative, tolerance not positive,
 	///                                maxIterations negative, threads < 1. The message names contact and value; the problem is unchanged.
 	SolveReport solve(GrainProblem& problem, const SolverOptions& options);

@@ -7,6 +7,8 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
+
 namespace contactdynamics::independent {
 
 /// Nearest point of the cone |r_t| <= mu r_n on the generatrix that faces z.
@@ -55,6 +57,20 @@ inline double residual(const GrainProblem& free, const GrainProblem& solved)
 		velocity[c.body1] -= inverseMassMatrix(free.bodies[c.body1]) * lever(c.arm1) * c.impulse;
 		velocity[c.body2] += inverseMassMatrix(free.bodies[c.body2]) * lever(c.arm2) * c.impulse;
 	}
+	// The mean field: L changes by the symmetric part of the moment over its inertia, within its limit.
+	Matrix3 L = Matrix3::Zero();
+	if (free.meanField) {
+		const MeanField& field = *free.meanField;
+		L = field.gradient;
+		Matrix3 moment = Matrix3::Zero();
+		for (const Contact& c : solved.contacts) moment += c.impulse * (c.arm1 - c.arm2).transpose();
+		for (int i = 0; i < 3; ++i)
+			for (int j = 0; j < 3; ++j) {
+				const double spin = (field.gradient(i, j) - field.gradient(j, i)) / 2, stretch = (field.gradient(i, j) + field.gradient(j, i)) / 2;
+				const double pushed = stretch + field.inverseMass(i, j) * (moment(i, j) + moment(j, i)) / 2;
+				if (field.inverseMass(i, j) != 0) L(i, j) = spin + std::clamp(pushed, -field.limit, field.limit);
+			}
+	}
 	double above = 0, below = 0;
 	for (const Contact& c : solved.contacts) {
 		const auto h1 = lever(c.arm1), h2 = lever(c.arm2);
@@ -62,7 +78,7 @@ inline double residual(const GrainProblem& free, const GrainProblem& solved)
 		const double Wnn = c.normal.dot(W * c.normal);
 		if (Wnn == 0) continue;
 		Vector3 u = h2.transpose() * velocity[c.body2] - h1.transpose() * velocity[c.body1] + c.imageVelocity;
-		u += c.gapVelocity * c.normal;
+		u += c.gapVelocity * c.normal + L * (c.arm1 - c.arm2);
 		const Vector3 ut = u - u.dot(c.normal) * c.normal;
 		const Vector3 F = c.impulse - nearestInCone(c.impulse - (u + c.friction * ut.norm() * c.normal) / Wnn, c.normal, c.friction);
 		above += F.dot(W * F);

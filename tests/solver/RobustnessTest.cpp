@@ -374,8 +374,8 @@ TEST(Reproducible, WideInstructionsGiveTheBitsOfPlainOnes)
 		}
 	same = bodies;
 	samePacks = packs;
-	const SweepNorms one = ballSweepBaseline(bodies.data(), packs.data(), packs.size(), {0.4, 0.2});
-	const SweepNorms two = selectBallSweep()(same.data(), samePacks.data(), samePacks.size(), {0.4, 0.2});
+	const SweepNorms one = ballSweepBaseline(bodies.data(), packs.data(), packs.size(), {0.4, 0.2}, nullptr);
+	const SweepNorms two = selectBallSweep()(same.data(), samePacks.data(), samePacks.size(), {0.4, 0.2}, nullptr);
 	EXPECT_EQ(one.increment2, two.increment2);
 	EXPECT_EQ(one.impulse2, two.impulse2);
 	for (std::size_t i = 0; i < bodies.size(); ++i)

@@ -40,7 +40,7 @@ def population() -> None:
     state(number).blockedDOFs = "XYZ"
 
 
-@pytest.mark.parametrize("homo_deform", [0, 1, 2])
+@pytest.mark.parametrize("homo_deform", [0, 1, 2, 3])
 def test_gradient_that_changes_in_mid_run(homo_deform: int) -> None:
     """A cell at rest, then every way in which a script sets the gradient, and back to rest."""
     population()

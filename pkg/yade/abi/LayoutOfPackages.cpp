@@ -3,6 +3,7 @@
 // libraries. Compiled with every build and linked nowhere.
 
 #include <abi/LayoutChecks.hpp>
+#include <pkg/common/BoundaryController.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Collider.hpp>
 #include <pkg/common/ElastMat.hpp>
@@ -14,10 +15,14 @@
 #include <pkg/dem/DemXDofGeom.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
+#include <pkg/dem/PeriIsoCompressor.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/dem/TriaxialStressController.hpp>
 #include <pkg/polyhedra/Polyhedra.hpp>
 
 namespace yade {
+
+STOCK_CLASS(BoundaryController, 104, 104)
 
 STOCK_CLASS(Box, 120, 120)
 STOCK_MEMBER(Box, extents, 96)
@@ -80,6 +85,12 @@ STOCK_MEMBER(NewtonIntegrator, warnNoForceReset, 400)
 STOCK_MEMBER(NewtonIntegrator, dampGravity, 409)
 STOCK_MEMBER(NewtonIntegrator, mask, 424)
 
+STOCK_CLASS(Peri3dController, 1232, 1232)
+STOCK_MEMBER(Peri3dController, stressMask, 800)
+
+STOCK_CLASS(PeriTriaxController, 488, 484)
+STOCK_MEMBER(PeriTriaxController, stressMask, 136)
+
 STOCK_CLASS(Polyhedra, 384, 384)
 STOCK_MEMBER(Polyhedra, v, 328)
 STOCK_MEMBER(Polyhedra, seed, 352)
@@ -90,5 +101,9 @@ STOCK_MEMBER(ScGeom, radius1, 144)
 STOCK_MEMBER(ScGeom, radius2, 152)
 STOCK_MEMBER(ScGeom, penetrationDepth, 160)
 STOCK_MEMBER(ScGeom, shearInc, 168)
+
+STOCK_CLASS(TriaxialStressController, 1088, 1081)
+STOCK_MEMBER(TriaxialStressController, stressMask, 1000)
+STOCK_MEMBER(TriaxialStressController, internalCompaction, 1048)
 
 } // namespace yade

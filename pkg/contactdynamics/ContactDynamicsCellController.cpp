@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ContactDynamicsCellController.hpp"
+#include <core/Cell.hpp>
+#include <core/EnergyTracker.hpp>
+#include <core/Scene.hpp>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace yade {
+
+YADE_PLUGIN((ContactDynamicsCellController));
+
+namespace {
+constexpr Real largestStrain = 0.5; // of a step [-]: beyond, pairs in contact are no longer those the collider found
+
+template <class Value> std::string sentence(const char* attribute, const Value& value, const char* allowed)
+{
+	std::ostringstream message;
+	message << "ContactDynamicsCellController." << attribute << " = " << value << ": " << allowed << ".";
+	return message.str();
+}
+std::string entry(const char* matrix, int row, int column) { return std::string(matrix) + '[' + "012"[row] + ',' + "012"[column] + ']'; }
+void requireFinite(const char* name, const Matrix3r& matrix)
+{
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j < 3; j++)
+			if (!std::isfinite(matrix(i, j))) throw std::invalid_argument(sentence(entry(name, i, j).c_str(), matrix(i, j), "it must be finite"));
+}
+} // namespace
+
+void ContactDynamicsCellController::requireAdmissible(const Admitted& values)
+{
+	requireFinite("stress", values.stress);
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j < i; j++)
+			if (std::abs(values.stress(i, j) - values.stress(j, i)) > 1e-12 * values.stress.norm())
+				throw std::invalid_argument(sentence(entry("stress", i, j).c_str(), values.stress(i, j),
+													 "stress must be symmetric, and the component across the diagonal is another"));
+	requireFinite("velGrad", values.velGrad);
+	if (values.stressMask < 0 || values.stressMask > 63)
+		throw std::invalid_argument(
+				sentence("stressMask", values.stressMask, "it must be a sum of 1 (xx), 2 (yy), 4 (zz), 8 (yz), 16 (zx), 32 (xy)"));
+	if (!(values.inertia >= 0 && std::isfinite(values.inertia)))
+		throw std::invalid_argument(sentence("inertia", values.inertia, "it must be finite and not negative (0: from the bodies)"));
+	if (!(values.maxStrainRate > 0)) throw std::invalid_argument(sentence("maxStrainRate", values.maxStrainRate, "it must be positive"));
+}
+
+void ContactDynamicsCellController::postLoad(ContactDynamicsCellController&)
+{
+	const Admitted now = asked();
+	stress = admitted.stress;
+	velGrad = admitted.velGrad;
+	stressMask = admitted.stressMask;
+	inertia = admitted.inertia;
+	maxStrainRate = admitted.maxStrainRate;
+	requireAdmissible(now);
+	if (now.inertia != admitted.inertia) inertiaInUse = 0;
+	stress = now.stress;
+	velGrad = now.velGrad;
+	stressMask = now.stressMask;
+	inertia = now.inertia;
+	maxStrainRate = now.maxStrainRate;
+	admitted = now;
+}
+
+void ContactDynamicsCellController::action()
+{
+	for (const auto& engine : scene->engines)
+		if (engine && !engine->dead && engine->getClassName() == "ContactDynamicsEngine") return;
+	throw std::runtime_error(
+			"ContactDynamicsCellController: there is no (live) ContactDynamicsEngine in O.engines, which moves the cell together with "
+			"the contacts; put one behind this engine. contactdynamics.engines() returns a list with one.");
+}
+
+bool ContactDynamicsCellController::controlsStress(int row, int column) const { return stressMask & (1 << (row == column ? row : 6 - row - column)); }
+
+contactdynamics::MeanField ContactDynamicsCellController::freeMotion(const Scene& scene, const Matrix3r& otherStress)
+{
+	if (!scene.isPeriodic) throw std::runtime_error("ContactDynamicsCellController: the scene is not periodic (O.periodic is False).");
+	const Cell& cell = *scene.cell;
+	if (cell.homoDeform < Cell::HOMO_POS)
+		throw std::runtime_error("ContactDynamicsCellController: O.cell.homoDeform is " + std::to_string(cell.homoDeform) +
+								 "; it must be at least 1, so that the bodies follow the cell.");
+	requireAdmissible(asked()); // again: Python writes single components of a matrix past postLoad()
+	if (inertia > 0) inertiaInUse = inertia;
+	const Real volume = cell.hSize.determinant();
+	if (!(inertiaInUse > 0)) {
+		Real mass = 0;
+		int count = 0;
+		for (const auto& body : *scene.bodies) {
+			if (!body || body->isClumpMember() || !body->isDynamic()) continue;
+			mass += body->state->mass;
+			count++;
+		}
+		if (!(mass > 0))
+			throw std::runtime_error(
+					"ContactDynamicsCellController.inertia = 0: it cannot be taken from the bodies, because none is movable and has mass.");
+		inertiaInUse = mass * std::pow(volume / count, Real(2) / 3) / 3;
+	}
+
+	contactdynamics::MeanField field;
+	field.limit = maxStrainRate;
+	field.gradient = velGrad;
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j < 3; j++) {
+			if (!controlsStress(i, j)) continue;
+			const Real rate = 0.5 * (cell.velGrad(i, j) + cell.velGrad(j, i)), goal = 0.5 * (stress(i, j) + stress(j, i)),
+					   other = 0.5 * (otherStress(i, j) + otherStress(j, i));
+			field.gradient(i, j) = rate + scene.dt * volume / inertiaInUse * (goal - other) + 0.5 * (velGrad(i, j) - velGrad(j, i));
+			field.inverseMass(i, j) = 1 / inertiaInUse;
+		}
+	return field;
+}
+
+void ContactDynamicsCellController::requireSmallStrain(const Scene& scene, const Matrix3r& gradient)
+{
+	const Real strain = scene.dt * gradient.cwiseAbs().maxCoeff();
+	if (strain < largestStrain) return;
+	std::ostringstream message;
+	message << "ContactDynamicsCellController: the cell would be strained by " << strain << " in this step (O.dt = " << scene.dt << "); at most "
+			<< largestStrain << " is allowed. Lower O.dt or set maxStrainRate.";
+	throw std::runtime_error(message.str());
+}
+
+void ContactDynamicsCellController::apply(Scene& scene, const Matrix3r& gradient, const Matrix3r& moment, const Matrix3r& otherStress)
+{
+	Cell& cell = *scene.cell;
+	const Real volume = cell.hSize.determinant();
+	currentStress = otherStress - moment / (scene.dt * volume);
+	const Real added = scene.dt * volume * currentStress.cwiseProduct(0.5 * (cell.velGrad + gradient)).sum();
+	work += added;
+	int place = -1; // looked up by name, see ContactEnergy
+	if (scene.trackEnergy) scene.energy->add(-added, "velGradWork", place);
+	cell.nextVelGrad = gradient; // NewtonIntegrator puts it into effect
+	cell.velGradChanged = true;
+}
+
+} // namespace yade

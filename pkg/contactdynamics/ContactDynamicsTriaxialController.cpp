@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ContactDynamicsTriaxialController.hpp"
+#include <core/Scene.hpp>
+#include <pkg/common/Box.hpp>
+#include <pkg/common/Wall.hpp>
+#include <pkg/dem/NewtonIntegrator.hpp>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace yade {
+
+YADE_PLUGIN((ContactDynamicsTriaxialController));
+
+namespace {
+template <class Value> std::string sentence(const char* attribute, const Value& value, const char* allowed)
+{
+	std::ostringstream message;
+	message << "ContactDynamicsTriaxialController." << attribute << " = " << value << ": " << allowed << ".";
+	return message.str();
+}
+/// Half the thickness of a wall along an axis [m], negative if the body is no wall across it.
+Real halfThickness(const Shape* shape, int axis)
+{
+	if (const auto* box = dynamic_cast<const Box*>(shape)) return box->extents[axis];
+	const auto* plane = dynamic_cast<const Wall*>(shape);
+	return plane && plane->axis == axis ? 0 : -1;
+}
+} // namespace
+
+void ContactDynamicsTriaxialController::requireAdmissible(const Admitted& values)
+{
+	std::ostringstream list;
+	for (const int id : values.walls) list << (list.tellp() > 0 ? ", " : "") << '#' << id;
+	vector<int> sorted = values.walls;
+	std::sort(sorted.begin(), sorted.end());
+	const bool different = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+	if (!sorted.empty() && !(sorted.size() == 6 && different && sorted[0] >= 0))
+		throw std::invalid_argument(sentence("walls", list.str(), "it must be six different ids of bodies, those at -x, +x, -y, +y, -z and +z"));
+	for (int axis = 0; axis < 3; axis++) {
+		if (!(values.stress[axis] <= 0 && std::isfinite(values.stress[axis])))
+			throw std::invalid_argument(
+					sentence("stress", values.stress.transpose(), "each must be finite and not positive (compression is negative)"));
+		if (!std::isfinite(values.strainRate[axis]))
+			throw std::invalid_argument(sentence("strainRate", values.strainRate.transpose(), "each must be finite"));
+	}
+	if (values.stressMask < 0 || values.stressMask > 7)
+		throw std::invalid_argument(sentence("stressMask", values.stressMask, "it must be a sum of 1 (x), 2 (y), 4 (z)"));
+	if (!(values.wallMass >= 0 && std::isfinite(values.wallMass)))
+		throw std::invalid_argument(sentence("wallMass", values.wallMass, "it must be finite and not negative (0: from the bodies)"));
+	if (!(values.maxStrainRate > 0)) throw std::invalid_argument(sentence("maxStrainRate", values.maxStrainRate, "it must be positive"));
+}
+
+void ContactDynamicsTriaxialController::postLoad(ContactDynamicsTriaxialController&)
+{
+	const Admitted now = asked();
+	const auto put = [this](const Admitted& values) {
+		walls = values.walls;
+		stress = values.stress;
+		strainRate = values.strainRate;
+		stressMask = values.stressMask;
+		wallMass = values.wallMass;
+		maxStrainRate = values.maxStrainRate;
+	};
+	put(admitted);
+	requireAdmissible(now);
+	if (now.wallMass != admitted.wallMass) wallMassInUse = 0;
+	put(now);
+	admitted = now;
+}
+
+const Body& ContactDynamicsTriaxialController::wall(int place) const
+{
+	const int id = walls[place];
+	const Body* body = id < static_cast<int>(scene->bodies->size()) ? (*scene->bodies)[id].get() : nullptr;
+	if (!body || halfThickness(body->shape.get(), place / 2) < 0)
+		throw std::runtime_error("ContactDynamicsTriaxialController.walls: body #" + std::to_string(id) +
+								 (body ? " is no Box or Wall perpendicular to " : " does not exist; needed is the wall perpendicular to ") +
+								 "xyz"[place / 2] + ".");
+	return *body;
+}
+
+Vector3r ContactDynamicsTriaxialController::measureSize() const
+{
+	Vector3r edges;
+	for (int axis = 0; axis < 3; axis++) {
+		const Body &low = wall(2 * axis), &high = wall(2 * axis + 1);
+		edges[axis] = high.state->pos[axis] - low.state->pos[axis] - halfThickness(high.shape.get(), axis) - halfThickness(low.shape.get(), axis);
+		if (!(edges[axis] > 0))
+			throw std::runtime_error("ContactDynamicsTriaxialController: the box has the length " + std::to_string(edges[axis]) + " along " +
+									 "xyz"[axis] + ", between the walls #" + std::to_string(low.getId()) + " and #" + std::to_string(high.getId()) +
+									 "; it must be positive.");
+	}
+	return edges;
+}
+
+void ContactDynamicsTriaxialController::takeMass()
+{
+	if (wallMass > 0) wallMassInUse = wallMass;
+	if (wallMassInUse > 0) return;
+	Real mass = 0;
+	int count = 0;
+	for (const auto& body : *scene->bodies) {
+		if (!body || body->isClumpMember() || !body->isDynamic() || std::count(walls.begin(), walls.end(), body->getId())) continue;
+		mass += body->state->mass;
+		count++;
+	}
+	if (!(mass > 0))
+		throw std::runtime_error(
+				"ContactDynamicsTriaxialController.wallMass = 0: it cannot be taken from the bodies, because none is movable and has mass.");
+	wallMassInUse = mass / std::cbrt(count);
+}
+
+/// Force along the axis, for the area across it, and at most what leads to the bound on the rate.
+void ContactDynamicsTriaxialController::press(int axis, Real area)
+{
+	const Body& body = wall(2 * axis + 1);
+	State& state = *body.state;
+	state.blockedDOFs = State::DOF_ALL & ~State::axisDOF(axis);
+	state.mass = wallMassInUse;
+	const Real fastest = maxStrainRate * size[axis], h = scene->dt;
+	const Real force = std::max(stress[axis] * area, wallMassInUse * (-fastest - state.vel[axis]) / h);
+	Real gravity = 0;
+	for (const auto& engine : scene->engines)
+		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get()); newton && !newton->dead) gravity = newton->gravity[axis];
+	Vector3r total = Vector3r::Zero();
+	total[axis] = force - wallMassInUse * gravity;
+	scene->forces.addForce(body.getId(), total);
+}
+
+void ContactDynamicsTriaxialController::drive(int axis)
+{
+	State& state = *wall(2 * axis + 1).state;
+	state.blockedDOFs = State::DOF_ALL;
+	state.vel = Vector3r::Zero();
+	state.vel[axis] = size[axis] * std::expm1(strainRate[axis] * scene->dt) / scene->dt;
+}
+
+void ContactDynamicsTriaxialController::action()
+{
+	requireAdmissible(asked()); // again: Python writes single components of a vector past postLoad()
+	if (walls.empty())
+		throw std::runtime_error("ContactDynamicsTriaxialController.walls is empty: it must be six ids. contactdynamics.triaxial.box() builds them.");
+	size = measureSize();
+	takeMass();
+	if (referenceSize == Vector3r::Zero()) referenceSize = size;
+	for (int axis = 0; axis < 3; axis++) {
+		strain[axis] = std::log(size[axis] / referenceSize[axis]);
+		State& held = *wall(2 * axis).state;
+		held.blockedDOFs = State::DOF_ALL;
+		held.vel = held.angVel = Vector3r::Zero();
+		if (stressMask & (1 << axis))
+			press(axis, size[(axis + 1) % 3] * size[(axis + 2) % 3]);
+		else
+			drive(axis);
+	}
+}
+
+} // namespace yade

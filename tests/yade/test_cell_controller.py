@@ -1,0 +1,369 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""ContactDynamicsCellController: its equation of motion from YADE's own numbers, closed forms, flips, bits, bad input."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from yade import Matrix3, O, Vector3
+
+import cell_cases as cases
+from cell_cases import GOAL, PRESSURE, SHEARED, control, dense, matrix
+from contactdynamics import ContactDynamicsCellController
+from halves import same_bits
+from prediction import step_and_compare
+from refusal import attribute_refused, refused
+from scenes import cd, contacts, engine, equip, grain, material, state, steps, vec
+
+# Components under stress, by bit of stressMask: xx, yy, zz, yz, zx, xy.
+PLACES = [(0, 0), (1, 1), (2, 2), (1, 2), (2, 0), (0, 1)]
+
+
+def free_components(mask: int) -> np.ndarray:
+    """Matrix of booleans: under stress."""
+    free = np.zeros((3, 3), bool)
+    for bit, (i, j) in enumerate(PLACES):
+        free[i, j] = free[j, i] = bool(mask & (1 << bit))
+    return free
+
+
+@pytest.mark.parametrize("homo_deform", [1, 2, 3])
+@pytest.mark.parametrize("mask", [0, 2, 7, 63])
+def test_cell_obeys_its_equation_of_motion(mask: int, homo_deform: int) -> None:
+    """Bodies move as predicted, and M dL = h V (goal − stress), with the stress YADE measures and the gradient YADE applies."""
+    c = dense(stressMask=mask)
+    O.cell.homoDeform = homo_deform
+    free, moved, touched = free_components(mask), 0.0, 0
+    for _ in range(40):
+        before, volume = matrix(O.cell.velGrad), None
+        step_and_compare()
+        after, volume = matrix(O.cell.velGrad), O.cell.volume
+        stress = matrix(cases.seen[-1])
+        push = np.abs(stress).max() + PRESSURE
+        # Sums over the contacts in another order: round-off of each, some hundred of them.
+        assert np.abs(matrix(c.currentStress) - stress).max() <= 1e-12 * push
+        symmetric = lambda m: 0.5 * (m + m.T)  # noqa: E731
+        change = c.inertiaInUse * symmetric(after - before)
+        expected = O.dt * volume * (symmetric(matrix(GOAL)) - symmetric(stress))
+        scale = O.dt * volume * push + c.inertiaInUse * np.abs(after).max()
+        assert np.abs((change - expected)[free]).max(initial=0) <= 1e-11 * scale
+        assert (after[~free] == matrix(SHEARED)[~free]).all()
+        # Of a shear under stress the rotation stays prescribed.
+        spin = 0.5 * (after - after.T - matrix(SHEARED) + matrix(SHEARED).T)
+        assert np.abs(spin).max() <= 1e-14 * (1 + np.abs(after).max())
+        moved, touched = max(moved, np.abs((after - matrix(SHEARED))[free]).max(initial=0)), touched + cd().activeContacts
+        assert cd().converged
+    assert touched > (400 if mask in (7, 63) else 20)
+    assert mask == 0 or moved > 1e-2
+
+
+def test_contact_law_holds_for_the_motion_of_the_cell() -> None:
+    """Velocities after the step and the gradient that the cell moves with give the local velocity of every contact."""
+    dense(tolerance=1e-9)
+    across = 0
+    for _ in range(20):
+        places = {b.id: Vector3(b.state.pos) for b in O.bodies}
+        O.step()
+        for i in contacts():
+            if O.bodies[i.id1].isClumpMember or O.bodies[i.id2].isClumpMember or any(O.bodies[n].aspherical for n in (i.id1, i.id2)):
+                continue
+            shift = O.cell.hSize * Vector3(*i.cellDist)
+            branch = places[i.id2] + shift - places[i.id1]
+            n = branch.normalized()
+            gap = branch.norm() - 2 * 0.97
+            s1, s2 = state(i.id1), state(i.id2)
+            arm = 0.97 + 0.5 * gap
+            u = s2.vel - s1.vel + O.cell.velGrad * shift - (s1.angVel + s2.angVel).cross(arm * n)
+            size = s1.vel.norm() + s2.vel.norm() + arm * (s1.angVel.norm() + s2.angVel.norm()) + (O.cell.velGrad * shift).norm()
+            normal = n if i.geom.normal.dot(n) > 0 else -n
+            assert vec(normal) == pytest.approx(vec(i.geom.normal), abs=1e-12)
+            assert i.phys.localVelocity[0] == pytest.approx(u.dot(n), abs=1e-11 * size)
+            assert i.phys.localVelocity.norm() == pytest.approx(u.norm(), abs=1e-11 * size)
+            across += i.cellDist != Vector3(0, 0, 0)
+            assert u.dot(n) + max(gap, 0) / O.dt >= -cd().maxApproachSpeed - 1e-11 * size
+    assert across > 100
+
+
+def row(stress: float, **more):
+    """Three balls in line across the whole cell along x, each touching the next, the last one the image of the first."""
+    cases.seen.clear()
+    O.periodic = True
+    O.cell.setBox(6, 5, 6)
+    material(friction=0)
+    for k in range(3):
+        grain((1 + 2 * k, 2, 2))
+    equip(1e-3, gravity=(0, 0, 0), tolerance=1e-13)
+    return control(stress=Matrix3(stress, 0, 0, 0, 0, 0, 0, 0, 0), stressMask=1, **more)
+
+
+def test_row_of_balls_bears_the_pressure() -> None:
+    """Every contact carries the pressure times the cross-section of the cell, and nothing moves."""
+    row(-PRESSURE)
+    steps(50)
+    assert len(contacts()) == 3
+    for i in contacts():
+        assert i.phys.normalForce.norm() == pytest.approx(PRESSURE * 5 * 6, rel=1e-9)
+    assert np.abs(matrix(O.cell.velGrad)).max() < 1e-12
+    assert cd().maxPenetration < 1e-12
+
+
+def test_cell_without_contact_falls_freely() -> None:
+    """dL = h V stress / M in every step; exact but for round-off."""
+    c = row(2 * PRESSURE, inertia=5e7)
+    rate = 0.0
+    for _ in range(20):
+        O.step()
+        rate += O.dt * O.cell.volume * 2 * PRESSURE / 5e7
+        assert O.cell.velGrad[0, 0] == pytest.approx(rate, rel=1e-13)
+    assert c.inertiaInUse == 5e7 and cd().activeContacts == 0
+
+
+def test_inertia_from_the_bodies() -> None:
+    c = row(-PRESSURE)
+    steps(1)
+    assert c.inertiaInUse == pytest.approx(sum(b.state.mass for b in O.bodies) * (180 / 3) ** (2 / 3) / 3, rel=1e-14)
+    c.inertia = 7
+    steps(1)
+    assert c.inertiaInUse == 7
+    c.inertia = 0
+    steps(1)
+    assert c.inertiaInUse > 1e4
+
+
+@pytest.mark.parametrize("shear", [False, True])
+def test_rate_is_bounded(shear: bool) -> None:
+    """A loose assembly is compressed at the bound, whatever the pressure."""
+    goal = Matrix3(0, 1e9, 0, 1e9, 0, 0, 0, 0, 0) if shear else Matrix3(-1e9, 0, 0, 0, -1e9, 0, 0, 0, -1e9)
+    O.periodic = True
+    O.cell.setBox(9, 9, 9)
+    material()
+    grain((1, 2, 2)), grain((6, 6, 6))
+    equip(1e-3, gravity=(0, 0, 0))
+    control(stress=goal, stressMask=32 if shear else 7, maxStrainRate=0.3)
+    steps(5)
+    expected = [[0, 0.3, 0], [0.3, 0, 0], [0, 0, 0]] if shear else np.diag([-0.3] * 3)
+    assert matrix(O.cell.velGrad) == pytest.approx(np.array(expected), abs=1e-14)
+
+
+def test_soft_contacts_count() -> None:
+    """A soft contact that balances the pressure keeps the cell at rest; without it the cell would move."""
+    from yade import Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack
+
+    c = row(-PRESSURE, inertia=1e9)
+    loop = engine("InteractionLoop")
+    loop.physDispatcher.functors = [Ip2_FrictMat_FrictMat_FrictPhys()]
+    loop.lawDispatcher.functors = [Law2_ScGeom_FrictPhys_CundallStrack()]
+    state(1).pos = Vector3(2.9, 2, 2)
+    steps(2)
+    force = sum(i.phys.normalForce[0] for i in O.interactions if i.isReal)
+    assert force != 0 and not contacts()
+    soft = matrix(cases.seen[-1])
+    assert soft[0, 0] < -1e-3 * PRESSURE and matrix(c.currentStress) == pytest.approx(soft, rel=1e-12)
+    # Two steps from rest: L = h V (2 goal − sum of the stresses) / M.
+    expected = O.dt * O.cell.volume * (-2 * PRESSURE - sum(matrix(s)[0, 0] for s in cases.seen)) / 1e9
+    assert O.cell.velGrad[0, 0] == pytest.approx(expected, rel=1e-6)  # the volume changes by a part of 1e-7 meanwhile
+
+
+@pytest.mark.parametrize("homo_deform", [0, 1, 2, 3])
+def test_contacts_keep_impulse_and_lever_arms_across_a_flip(homo_deform: int) -> None:
+    """The same scene goes on with and without a flip of its sheared cell: same places, velocities and impulses but for round-off."""
+    dense(stressMask=0, tolerance=1e-10, velGrad=Matrix3(0, 40, 0, 0, 0, 0, 0, 0, 0), dt=5e-4)
+    if homo_deform == 0:
+        O.engines = [e for e in O.engines if not isinstance(e, ContactDynamicsCellController)]
+        O.cell.homoDeform = 0
+        O.cell.velGrad = Matrix3(0, 40, 0, 0, 0, 0, 0, 0, 0)
+    O.cell.homoDeform = homo_deform
+    steps(28)
+    assert O.cell.hSize[0, 1] > 0.52 * 8
+    O.saveTmp()
+
+    def branches() -> dict:
+        return {
+            (i.id1, i.id2): (vec(state(i.id2).pos + O.cell.hSize * Vector3(*i.cellDist) - state(i.id1).pos), vec(i.phys.impulse))
+            for i in contacts()
+        }
+
+    def run(flip: bool) -> dict:
+        O.loadTmp()
+        before = branches()
+        if flip:
+            turned = O.cell.flipCell()
+            assert turned != Matrix3.Identity
+            after = branches()
+            assert after.keys() == before.keys()
+            for pair, (branch, impulse) in before.items():
+                assert np.abs(after[pair][0] - branch).max() <= 1e-13 * 8 and (after[pair][1] == impulse).all()
+            assert any(tuple(i.cellDist) != (0, 0, 0) for i in contacts())
+        steps(4)
+        return {b.id: np.concatenate([vec(b.state.pos), O.dt * vec(b.state.vel), O.dt * vec(b.state.angVel)]) for b in O.bodies}
+
+    straight, flipped = run(False), run(True)
+    # Impulses need not be unique: but started from the same ones, the solve takes the same path, up to its tolerance.
+    assert max(np.abs(straight[n] - flipped[n]).max() for n in straight) <= 1e-9
+    assert cd().converged
+
+
+def test_flipping_by_itself_in_a_long_shear() -> None:
+    """Shear by several cell lengths at constant pressure: momentum stays zero, no overlap grows, the pressure is held."""
+    c = dense(friction=0.3, tolerance=1e-4, dt=1e-3, stressMask=7, velGrad=Matrix3(0, 2, 0, 0, 0, 0, 0, 0, 0), maxStrainRate=3.0)
+    c.stress = Matrix3(-5e6, 0, 0, 0, -5e6, 0, 0, 0, -5e6)
+    O.cell.flipFlippable = True
+    for b in O.bodies:
+        b.state.vel = Vector3(0, 0, 0)
+    pressures, flips, last = [], 0, O.cell.hSize[0, 1]
+    for step in range(1000):
+        O.step()
+        flips += O.cell.hSize[0, 1] < last
+        last = O.cell.hSize[0, 1]
+        if step >= 200:
+            pressures.append(-np.trace(matrix(cases.seen[-1])) / 3 / 5e6)
+        assert cd().converged
+    assert flips >= 2
+    assert cd().maxPenetration < 1e-3
+    assert np.mean(pressures) == pytest.approx(1, abs=0.02)
+    mass = sum(b.state.mass for b in O.bodies if not b.isClumpMember)
+    moving = [b for b in O.bodies if not b.isClumpMember]
+    # Velocities hold for the places before the move. The mean field is up to 60 m/s, far from the origin: 1000 steps of its round-off.
+    drift = sum((b.state.mass * vec(b.state.vel - O.cell.velGrad * (b.state.pos - O.dt * b.state.vel)) for b in moving), np.zeros(3)) / mass
+    assert np.abs(drift).max() < 1e-10
+
+
+@pytest.mark.parametrize("mask", [0, 7, 63])
+def test_energy_balance(mask: int) -> None:
+    """Kinetic energy about the mean field grows by the work of the cell less what friction and impacts take: exact but for round-off."""
+    cases.seen.clear()
+    generator = np.random.default_rng(12)
+    O.periodic = True
+    O.cell.setBox(8, 8, 8)
+    material(friction=0.4)
+    for k in range(64):
+        place = 2 * np.array([k % 4, k // 4 % 4, k // 16]) + 1 + generator.uniform(-0.05, 0.05, 3)
+        grain(place, radius=0.97, velocity=generator.uniform(-1, 1, 3), spin=generator.uniform(-1, 1, 3))
+    equip(1e-3, gravity=(0, 0, 0), tolerance=1e-3, repairRate=0)
+    c = control(stress=GOAL, velGrad=SHEARED, stressMask=mask)
+    O.trackEnergy = True
+
+    def kinetic(places: dict) -> float:
+        total = 0.0
+        for b in O.bodies:
+            s = b.state
+            total += 0.5 * s.mass * (s.vel - O.cell.velGrad * places[b.id]).squaredNorm() + 0.5 * s.inertia[0] * s.angVel.squaredNorm()
+        return total
+
+    def taken() -> float:
+        return sum(value for name, value in O.energy.items() if name.startswith("contact"))
+
+    for step in range(40):
+        # Positions at which the velocities hold: those before the move. The mean spin is put into the bodies in the first step, without work.
+        places = {b.id: Vector3(b.state.pos) for b in O.bodies}
+        O.step()
+        now = (kinetic(places), taken(), c.work)
+        if step > 1:
+            growth, loss, work = (a - b for a, b in zip(now, before))
+            size = now[0] + abs(loss) + abs(work)
+            assert abs(growth + loss - work) <= 1e-12 * size
+        before = now
+    assert taken() > 0.1 * now[0]
+    assert O.energy["velGradWork"] == pytest.approx(-c.work, rel=1e-12)
+
+
+def test_same_bits_with_two_threads_and_across_a_file(tmp_path) -> None:
+    same_bits("cell_cases", tmp_path)
+
+
+# --- bad input ------------------------------------------------------------------------------------------------------
+
+NAN = float("nan")
+
+
+@pytest.mark.parametrize(
+    "attribute, value, words",
+    [
+        ("stress", Matrix3(-1, 2, 0, 0, -1, 0, 0, 0, -1), (r"stress\[1,0\]", "symmetric")),
+        ("stress", Matrix3(NAN, 0, 0, 0, 0, 0, 0, 0, 0), (r"stress\[0,0\]", "nan", "finite")),
+        ("velGrad", Matrix3(0, float("inf"), 0, 0, 0, 0, 0, 0, 0), (r"velGrad\[0,1\]", "inf", "finite")),
+        ("stressMask", 64, ("stressMask = 64", "32")),
+        ("stressMask", -1, ("stressMask = -1",)),
+        ("inertia", -1.0, ("inertia = -1", "negative")),
+        ("inertia", NAN, ("inertia = nan",)),
+        ("maxStrainRate", 0.0, ("maxStrainRate = 0", "positive")),
+        ("maxStrainRate", NAN, ("maxStrainRate = nan",)),
+    ],
+)
+def test_inadmissible_attributes(attribute: str, value, words) -> None:
+    attribute_refused(ContactDynamicsCellController, attribute, value, words, stress=GOAL, velGrad=SHEARED, stressMask=5, inertia=3, maxStrainRate=2)
+
+
+def test_component_written_in_place() -> None:
+    c = dense()
+    c.stress[0, 1] = 5e3
+    refused(r"stress\[1,0\]", "symmetric")
+    c.stress = GOAL
+    steps(2)
+
+
+def test_scene_that_is_not_periodic() -> None:
+    dense()
+    O.periodic = False
+    refused("periodic")
+    O.periodic = True
+
+
+def test_cell_that_bodies_do_not_follow() -> None:
+    dense()
+    O.cell.homoDeform = 0
+    refused("homoDeform is 0")
+    O.cell.homoDeform = 2
+    steps(2)
+
+
+def test_masked_bodies() -> None:
+    dense()
+    engine("NewtonIntegrator").mask = 2
+    refused("#0", "mask")
+    engine("NewtonIntegrator").mask = 0
+    steps(2)
+
+
+def test_nothing_to_take_the_inertia_from() -> None:
+    O.periodic = True
+    O.cell.setBox(5, 5, 5)
+    grain((1, 1, 1), fixed=True)
+    equip(1e-3)
+    c = control(stress=GOAL)
+    refused("inertia", "movable")
+    c.inertia = 1e12
+    steps(1)
+
+
+def test_two_controllers() -> None:
+    dense()
+    O.engines = [ContactDynamicsCellController(dead=True)] + list(O.engines)
+    steps(1)
+    O.engines = [ContactDynamicsCellController()] + list(O.engines)
+    refused("two", "ContactDynamicsCellController")
+
+
+def test_no_engine_to_move_the_cell() -> None:
+    dense()
+    cd().dead = True
+    refused("ContactDynamicsCellController", "ContactDynamicsEngine")
+    cd().dead = False
+    steps(1)
+
+
+def test_step_that_would_strain_the_cell_too_far() -> None:
+    c = dense()
+    c.velGrad = Matrix3(0, 2e3, 0, 0, 0, 0, 0, 0, 0)
+    before = [tuple(b.state.pos) for b in O.bodies]
+    refused("strained by 2", "O.dt")
+    assert [tuple(b.state.pos) for b in O.bodies] == before
+    c.velGrad = SHEARED
+    steps(2)
+
+
+def test_no_sparse_problem_to_show() -> None:
+    dense()
+    steps(1)
+    with pytest.raises(RuntimeError, match="ContactDynamicsCellController"):
+        cd().lastProblem()
