@@ -13,6 +13,7 @@ bool isAboveFace(const PlacedShape& shape, std::size_t face, const Vector3& poin
 	for (std::int32_t i = 0; i < of.count; i++) {
 		const Vector3 &from = shape.vertices[shape.shape->loops[of.first + i]],
 					  &to = shape.vertices[shape.shape->loops[of.first + (i + 1) % of.count]];
+		if (to == from) return false; // a face without width, at the edge of a triangle: nothing stands above it, and its ends bound nothing
 		if (normal.cross(to - from).dot(point - from) < 0) return false;
 	}
 	return true;
