@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsCellController.hpp"
+#include "RefuseAttribute.hpp"
 #include <core/Cell.hpp>
 #include <core/EnergyTracker.hpp>
 #include <core/Scene.hpp>
@@ -15,18 +16,13 @@ YADE_PLUGIN((ContactDynamicsCellController));
 namespace {
 constexpr Real largestStrain = 0.5; // of a step [-]: beyond, pairs in contact are no longer those the collider found
 
-template <class Value> std::string sentence(const char* attribute, const Value& value, const char* allowed)
-{
-	std::ostringstream message;
-	message << "ContactDynamicsCellController." << attribute << " = " << value << ": " << allowed << ".";
-	return message.str();
-}
 std::string entry(const char* matrix, int row, int column) { return std::string(matrix) + '[' + "012"[row] + ',' + "012"[column] + ']'; }
 void requireFinite(const char* name, const Matrix3r& matrix)
 {
 	for (int i = 0; i < 3; i++)
 		for (int j = 0; j < 3; j++)
-			if (!std::isfinite(matrix(i, j))) throw std::invalid_argument(sentence(entry(name, i, j).c_str(), matrix(i, j), "it must be finite"));
+			if (!std::isfinite(matrix(i, j)))
+				refuseAttribute("ContactDynamicsCellController." + entry(name, i, j), matrix(i, j), "it must be finite");
 }
 } // namespace
 
@@ -36,15 +32,15 @@ void ContactDynamicsCellController::requireAdmissible(const Admitted& values)
 	for (int i = 0; i < 3; i++)
 		for (int j = 0; j < i; j++)
 			if (std::abs(values.stress(i, j) - values.stress(j, i)) > 1e-12 * values.stress.norm())
-				throw std::invalid_argument(sentence(entry("stress", i, j).c_str(), values.stress(i, j),
-													 "stress must be symmetric, and the component across the diagonal is another"));
+				refuseAttribute("ContactDynamicsCellController." + entry("stress", i, j), values.stress(i, j),
+								"stress must be symmetric, and the component across the diagonal is another");
 	requireFinite("velGrad", values.velGrad);
 	if (values.stressMask < 0 || values.stressMask > 63)
-		throw std::invalid_argument(
-				sentence("stressMask", values.stressMask, "it must be a sum of 1 (xx), 2 (yy), 4 (zz), 8 (yz), 16 (zx), 32 (xy)"));
+		refuseAttribute("ContactDynamicsCellController.stressMask", values.stressMask,
+						"it must be a sum of 1 (xx), 2 (yy), 4 (zz), 8 (yz), 16 (zx), 32 (xy)");
 	if (!(values.inertia >= 0 && std::isfinite(values.inertia)))
-		throw std::invalid_argument(sentence("inertia", values.inertia, "it must be finite and not negative (0: from the bodies)"));
-	if (!(values.maxStrainRate > 0)) throw std::invalid_argument(sentence("maxStrainRate", values.maxStrainRate, "it must be positive"));
+		refuseAttribute("ContactDynamicsCellController.inertia", values.inertia, "it must be finite and not negative (0: from the bodies)");
+	if (!(values.maxStrainRate > 0)) refuseAttribute("ContactDynamicsCellController.maxStrainRate", values.maxStrainRate, "it must be positive");
 }
 
 void ContactDynamicsCellController::postLoad(ContactDynamicsCellController&)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsMat.hpp"
+#include "RefuseAttribute.hpp"
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
 namespace yade {
 
@@ -37,10 +36,9 @@ void ContactDynamicsMat::postLoad(ContactDynamicsMat&)
 	for (const Attribute& a : all) {
 		asked.push_back(*a.value);
 		if (*a.value >= 0 && *a.value <= a.limit) continue;
-		std::ostringstream message;
-		message << "ContactDynamicsMat." << a.name << " = " << *a.value << ": " << a.allowed << ".";
+		const Real refused = *a.value;
 		for (std::size_t i = 0; i < admitted.size(); i++) *all[i].value = admitted[i];
-		throw std::invalid_argument(message.str());
+		refuseAttribute(std::string("ContactDynamicsMat.") + a.name, refused, a.allowed);
 	}
 	admitted = asked;
 }

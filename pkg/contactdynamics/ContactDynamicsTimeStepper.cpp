@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsTimeStepper.hpp"
 #include "LargestRates.hpp"
+#include "RefuseAttribute.hpp"
 #include <core/Scene.hpp>
 #include <pkg/common/Collider.hpp>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
 namespace yade {
@@ -15,10 +15,7 @@ YADE_PLUGIN((ContactDynamicsTimeStepper));
 namespace {
 void require(bool fulfilled, const char* attribute, Real value, const char* allowed)
 {
-	if (fulfilled) return;
-	std::ostringstream message;
-	message << "ContactDynamicsTimeStepper." << attribute << " = " << value << ": " << allowed << ".";
-	throw std::invalid_argument(message.str());
+	if (!fulfilled) refuseAttribute(std::string("ContactDynamicsTimeStepper.") + attribute, value, allowed);
 }
 bool positive(Real value) { return value > 0 && std::isfinite(value); }
 bool notNegative(Real value) { return value >= 0 && std::isfinite(value); }

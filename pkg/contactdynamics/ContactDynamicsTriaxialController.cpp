@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsTriaxialController.hpp"
+#include "RefuseAttribute.hpp"
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Wall.hpp>
@@ -14,12 +15,6 @@ namespace yade {
 YADE_PLUGIN((ContactDynamicsTriaxialController));
 
 namespace {
-template <class Value> std::string sentence(const char* attribute, const Value& value, const char* allowed)
-{
-	std::ostringstream message;
-	message << "ContactDynamicsTriaxialController." << attribute << " = " << value << ": " << allowed << ".";
-	return message.str();
-}
 /// Half the thickness of a wall along an axis [m], negative if the body is no wall across it.
 Real halfThickness(const Shape* shape, int axis)
 {
@@ -37,19 +32,20 @@ void ContactDynamicsTriaxialController::requireAdmissible(const Admitted& values
 	std::sort(sorted.begin(), sorted.end());
 	const bool different = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 	if (!sorted.empty() && !(sorted.size() == 6 && different && sorted[0] >= 0))
-		throw std::invalid_argument(sentence("walls", list.str(), "it must be six different ids of bodies, those at -x, +x, -y, +y, -z and +z"));
+		refuseAttribute("ContactDynamicsTriaxialController.walls", list.str(),
+						"it must be six different ids of bodies, those at -x, +x, -y, +y, -z and +z");
 	for (int axis = 0; axis < 3; axis++) {
 		if (!(values.stress[axis] <= 0 && std::isfinite(values.stress[axis])))
-			throw std::invalid_argument(
-					sentence("stress", values.stress.transpose(), "each must be finite and not positive (compression is negative)"));
+			refuseAttribute("ContactDynamicsTriaxialController.stress", values.stress.transpose(),
+							"each must be finite and not positive (compression is negative)");
 		if (!std::isfinite(values.strainRate[axis]))
-			throw std::invalid_argument(sentence("strainRate", values.strainRate.transpose(), "each must be finite"));
+			refuseAttribute("ContactDynamicsTriaxialController.strainRate", values.strainRate.transpose(), "each must be finite");
 	}
 	if (values.stressMask < 0 || values.stressMask > 7)
-		throw std::invalid_argument(sentence("stressMask", values.stressMask, "it must be a sum of 1 (x), 2 (y), 4 (z)"));
+		refuseAttribute("ContactDynamicsTriaxialController.stressMask", values.stressMask, "it must be a sum of 1 (x), 2 (y), 4 (z)");
 	if (!(values.wallMass >= 0 && std::isfinite(values.wallMass)))
-		throw std::invalid_argument(sentence("wallMass", values.wallMass, "it must be finite and not negative (0: from the bodies)"));
-	if (!(values.maxStrainRate > 0)) throw std::invalid_argument(sentence("maxStrainRate", values.maxStrainRate, "it must be positive"));
+		refuseAttribute("ContactDynamicsTriaxialController.wallMass", values.wallMass, "it must be finite and not negative (0: from the bodies)");
+	if (!(values.maxStrainRate > 0)) refuseAttribute("ContactDynamicsTriaxialController.maxStrainRate", values.maxStrainRate, "it must be positive");
 }
 
 void ContactDynamicsTriaxialController::postLoad(ContactDynamicsTriaxialController&)
