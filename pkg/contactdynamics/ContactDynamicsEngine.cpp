@@ -7,6 +7,7 @@
 #include "PlaneOfMotion.hpp"
 #include "OtherContacts.hpp"
 #include "Reach.hpp"
+#include "RefuseAttribute.hpp"
 #include "StockControllers.hpp"
 #include <core/Scene.hpp>
 #include <core/Timing.hpp>
@@ -25,15 +26,6 @@ ContactDynamicsEngine::~ContactDynamicsEngine() = default;
 
 void ContactDynamicsEngine::createStep() { step = std::make_shared<Step>(); }
 
-namespace {
-template <class Value> [[noreturn]] void refuse(const char* attribute, const Value& value, const char* allowed)
-{
-	std::ostringstream message;
-	message << "ContactDynamicsEngine." << attribute << " = " << value << ": " << allowed << ".";
-	throw std::invalid_argument(message.str());
-}
-} // namespace
-
 void ContactDynamicsEngine::postLoad(ContactDynamicsEngine&)
 {
 	const Admitted asked{tolerance, maxIterations, contactLaw, onNonConvergence, acceleration, repairRate, allowedOverlap};
@@ -44,17 +36,20 @@ void ContactDynamicsEngine::postLoad(ContactDynamicsEngine&)
 	acceleration = admitted.acceleration;
 	repairRate = admitted.repairRate;
 	allowedOverlap = admitted.allowedOverlap;
-	if (!(asked.tolerance > 0 && std::isfinite(asked.tolerance))) refuse("tolerance", asked.tolerance, "it must be positive and finite");
-	if (asked.maxIterations < 1) refuse("maxIterations", asked.maxIterations, "at least one sweep is needed");
+	if (!(asked.tolerance > 0 && std::isfinite(asked.tolerance)))
+		refuseAttribute("ContactDynamicsEngine.tolerance", asked.tolerance, "it must be positive and finite");
+	if (asked.maxIterations < 1) refuseAttribute("ContactDynamicsEngine.maxIterations", asked.maxIterations, "at least one sweep is needed");
 	if (asked.contactLaw != "quasiInelasticShock" && asked.contactLaw != "velocitySignorini" && asked.contactLaw != "signorini")
-		refuse("contactLaw", '"' + asked.contactLaw + '"', "allowed are quasiInelasticShock, velocitySignorini and signorini");
+		refuseAttribute("ContactDynamicsEngine.contactLaw", '"' + asked.contactLaw + '"',
+						"allowed are quasiInelasticShock, velocitySignorini and signorini");
 	if (asked.onNonConvergence != "warn" && asked.onNonConvergence != "raise" && asked.onNonConvergence != "ignore")
-		refuse("onNonConvergence", '"' + asked.onNonConvergence + '"', "allowed are warn, raise and ignore");
+		refuseAttribute("ContactDynamicsEngine.onNonConvergence", '"' + asked.onNonConvergence + '"', "allowed are warn, raise and ignore");
 	if (asked.acceleration != "default" && asked.acceleration != "none")
-		refuse("acceleration", '"' + asked.acceleration + '"', "allowed are default and none");
-	if (!(asked.repairRate >= 0 && asked.repairRate <= 1)) refuse("repairRate", asked.repairRate, "it must lie between 0 (no repair) and 1");
+		refuseAttribute("ContactDynamicsEngine.acceleration", '"' + asked.acceleration + '"', "allowed are default and none");
+	if (!(asked.repairRate >= 0 && asked.repairRate <= 1))
+		refuseAttribute("ContactDynamicsEngine.repairRate", asked.repairRate, "it must lie between 0 (no repair) and 1");
 	if (!(asked.allowedOverlap >= 0 && std::isfinite(asked.allowedOverlap)))
-		refuse("allowedOverlap", asked.allowedOverlap, "it must be finite and not negative");
+		refuseAttribute("ContactDynamicsEngine.allowedOverlap", asked.allowedOverlap, "it must be finite and not negative");
 	tolerance = asked.tolerance;
 	maxIterations = asked.maxIterations;
 	contactLaw = asked.contactLaw;
@@ -151,7 +146,9 @@ void ContactDynamicsEngine::apply()
 
 void ContactDynamicsEngine::repair()
 {
-	step->repairPenetration(*scene, repairRate, allowedOverlap);
+	// At the fixed cell in which repair works, a jammed packing has nowhere to go; where the stress determines the cell, both would pull at it for ever.
+	const bool cellYields = cellController && cellController->stressMask != 0;
+	step->repairPenetration(*scene, cellYields ? 0 : repairRate, allowedOverlap);
 	remainingOverlap = step->remainingOverlap;
 	repairDisplacement = step->repairDisplacement;
 }

@@ -303,8 +303,9 @@ void ContactDynamicsStep::leaveOut(Link& link)
 	link.phys->pseudoImpulse = 0;
 }
 
-contactdynamics::SolveReport ContactDynamicsStep::solve(Real tolerance, int maxIterations, bool accelerated)
+contactdynamics::SolveReport ContactDynamicsStep::solve(Real allowedResidual, int maxIterations, bool accelerated)
 {
+	tolerance = allowedResidual;
 	contactdynamics::SolverOptions options;
 	options.tolerance = tolerance;
 	options.maxIterations = maxIterations;
@@ -335,7 +336,7 @@ void ContactDynamicsStep::apply(Scene& scene)
 {
 	bonded.assign(scene.trackEnergy ? links.size() : 0, 0);
 	for (std::size_t i = 0; i < bonded.size(); i++) bonded[i] = ShiftedContacts::isBonded(*links[i].phys);
-	shifted.restore(problem);
+	shifted.restore(problem, tolerance);
 	rolling.remember();
 	parallelLoop(static_cast<long>(links.size()), [&](long i) { writeBack(links[i], problem.contacts[i]); });
 	parallelLoop(static_cast<long>(manifolds.size()), [&](long i) { manifolds[i].phys->sumUp(*manifolds[i].geom); });

@@ -45,7 +45,7 @@ struct ContactDynamicsStep {
 	void usePlane();
 	/// After collectBodies(): the periodic cell has inertia and moves with the contacts. The velocities collected hold the gradient of the field.
 	void useMeanField(const contactdynamics::MeanField& field, const IntegratorPlan& plan);
-	contactdynamics::SolveReport solve(Real tolerance, int maxIterations, bool accelerated);
+	contactdynamics::SolveReport solve(Real allowedResidual, int maxIterations, bool accelerated);
 	/// After apply(): what the contacts sustain, Σ r ⊗ b over them (impulse on body 2, vector from mass centre 1 to 2) [N m s].
 	Matrix3r moment() const;
 	void apply(Scene& scene);
@@ -113,6 +113,7 @@ private:
 
 	bool solved = false; // problem holds a solution
 	Real h = 0;
+	Real tolerance = 0; // of the last solve
 	Vector3r gravity;
 	Matrix3r velGrad;				 // that the integrator will apply, for the velocity of periodic images
 	Matrix3r displacementAsVelocity; // see IntegratorPlan::velocityOfDisplacement [1/s]

@@ -46,23 +46,28 @@ struct Source {
 	bool equals(const std::vector<Vector3r>& from) const { return from.size() == count && std::equal(from.begin(), from.end(), first); }
 };
 
+/// A box without thickness, as walls often are, is a plate.
+contactdynamics::ConvexShape boxOrPlate(const Vector3r& half)
+{
+	if (!(half.allFinite() && half.minCoeff() >= 0 && (half.array() == 0).count() <= 1)) {
+		std::ostringstream message;
+		message << "half edges are " << half.transpose() << ", must be finite and positive, but one may be zero";
+		throw std::invalid_argument(message.str());
+	}
+	int flat = 0;
+	if (half.minCoeff(&flat) > 0) return contactdynamics::cuboid(half);
+	const Vector3r along = half[(flat + 1) % 3] * Vector3r::Unit((flat + 1) % 3), across = half[(flat + 2) % 3] * Vector3r::Unit((flat + 2) % 3);
+	return contactdynamics::plate({-along - across, along - across, along + across, across - along});
+}
+
 contactdynamics::ConvexShape make(const Source& source)
 {
 	const char* attribute = source.kind == Source::polyhedron ? "Polyhedra.v: " : source.kind == Source::box ? "Box.extents: " : "Facet.vertices: ";
 	try {
-		if (source.kind == Source::box) {
-			if (!(source.first->allFinite() && source.first->minCoeff() > 0)) {
-				std::ostringstream message;
-				message << "half edges are " << source.first->transpose() << ", must be finite and positive";
-				throw std::invalid_argument(message.str());
-			}
-			return contactdynamics::cuboid(*source.first);
-		}
-		if (source.kind == Source::facet) {
-			if (source.count != 3) throw std::invalid_argument("a facet needs three vertices");
-			return contactdynamics::triangle(source.first[0], source.first[1], source.first[2]);
-		}
-		return contactdynamics::convexHull(std::vector<Vector3r>(source.first, source.first + source.count));
+		if (source.kind == Source::box) return boxOrPlate(*source.first);
+		const std::vector<Vector3r> points(source.first, source.first + source.count);
+		if (source.kind == Source::facet && source.count != 3) throw std::invalid_argument("a facet needs three vertices");
+		return source.kind == Source::facet ? contactdynamics::plate(points) : contactdynamics::convexHull(points);
 	} catch (const std::invalid_argument& error) {
 		throw std::invalid_argument(attribute + std::string(error.what()));
 	}

@@ -109,7 +109,25 @@ void ShiftedContacts::shift(contactdynamics::GrainProblem& problem, int index, C
 	shifts.push_back(made);
 }
 
-void ShiftedContacts::restore(contactdynamics::GrainProblem& problem) const
+/// A bond breaks where its contact parts or slides. That it carries just its strength is not enough: of several contacts of the same two bodies some may,
+/// while the others hold, because how they share the force is not unique.
+bool ShiftedContacts::breaks(const contactdynamics::GrainProblem& problem, const Shift& made, const Vector3r& slip, Real tolerance) const
+{
+	const contactdynamics::Contact& contact = problem.contacts[made.index];
+	const Vector3r& n = contact.normal;
+	const Real mobility = n.dot((problem.bodies[contact.body1].inverseMass + problem.bodies[contact.body2].inverseMass).cwiseProduct(n));
+	const Real still = tolerance * mobility * made.attraction; // what the bond would give way to a force beyond its strength by the tolerance [m/s]
+	switch (contact.status) {
+	case contactdynamics::ContactStatus::none:
+		return n.dot(contact.relativeVelocity) + contact.gapVelocity > still;
+	case contactdynamics::ContactStatus::sliding:
+		return slip.norm() > still;
+	default:
+		return false;
+	}
+}
+
+void ShiftedContacts::restore(contactdynamics::GrainProblem& problem, Real tolerance) const
 {
 	for (const Shift& made : shifts) {
 		contactdynamics::Contact& contact = problem.contacts[made.index];
@@ -118,7 +136,7 @@ void ShiftedContacts::restore(contactdynamics::GrainProblem& problem) const
 		contact.imageVelocity -= made.tangential;
 		if (made.phys->ks > 0) stretch(made, contact, slip);
 		if (!made.bonded) continue;
-		if (contact.status != contactdynamics::ContactStatus::sticking) made.phys->bond = "broken";
+		if (breaks(problem, made, slip, tolerance)) made.phys->bond = "broken";
 		contact.impulse -= made.attraction * contact.normal;
 	}
 }

@@ -34,7 +34,8 @@ public:
 	/// Shifts the data of contact number `index`. In the order of the contacts, because the bodies' velocities change.
 	void shift(contactdynamics::GrainProblem& problem, int index, ContactDynamicsPhys& phys, const Approach& approach);
 	/// Back to true impulses and velocities, and what the law remembers (bond, stretch).
-	void restore(contactdynamics::GrainProblem& problem) const;
+	/// @param tolerance  of the solve: a bond whose contact moves by no more than that of its strength holds
+	void restore(contactdynamics::GrainProblem& problem, Real tolerance) const;
 
 	/// The problem as it was solved, from what restore() left.
 	contactdynamics::GrainProblem asSolved(const contactdynamics::GrainProblem& problem) const;
@@ -56,6 +57,7 @@ private:
 
 	void bond(const contactdynamics::Contact& contact, ContactDynamicsPhys& phys, Shift& made, const Approach& approach) const;
 	void comply(contactdynamics::GrainProblem& problem, const ContactDynamicsPhys& phys, Shift& made, const Approach& approach) const;
+	bool breaks(const contactdynamics::GrainProblem& problem, const Shift& made, const Vector3r& slip, Real tolerance) const;
 	void stretch(const Shift& made, const contactdynamics::Contact& contact, const Vector3r& slip) const;
 
 	Real h = 0;

@@ -55,24 +55,29 @@ ConvexShape cuboid(const Vector3& half)
 	return shape;
 }
 
-ConvexShape triangle(const Vector3& a, const Vector3& b, const Vector3& c)
+ConvexShape plate(const std::vector<Vector3>& corners)
 {
-	if (!(a.allFinite() && b.allFinite() && c.allFinite())) throw std::invalid_argument("a corner of the triangle is not finite");
-	const Vector3 normal = (b - a).cross(c - a);
-	const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-	if (!(normal.norm() > coplanar * longest * longest)) throw std::invalid_argument("the corners of the triangle lie in one line");
-	// Two sheets of corners, so that every edge has two faces: 0, 1, 2 on the side of the normal, 3, 4, 5 on the other.
+	const auto count = static_cast<std::int32_t>(corners.size());
+	if (count < 3) throw std::invalid_argument("a plate needs three corners");
+	for (const Vector3& corner : corners)
+		if (!corner.allFinite()) throw std::invalid_argument("a corner is not finite");
+	const Vector3 first = corners[1] - corners[0], second = corners[2] - corners[1], normal = first.cross(second);
+	const double longest = std::max({first.norm(), second.norm(), (corners[2] - corners[0]).norm()});
+	if (!(normal.norm() > coplanar * longest * longest)) throw std::invalid_argument("the corners lie in one line");
+	// Two sheets of corners, so that every edge has two faces: the first half on the side of the normal, the second on the other.
 	ConvexShape shape;
-	shape.vertices = {a, b, c, a, b, c};
-	shape.loops = {0, 1, 2, 5, 4, 3};
+	shape.vertices = corners;
+	shape.vertices.insert(shape.vertices.end(), corners.begin(), corners.end());
+	for (std::int32_t i = 0; i < count; i++) shape.loops.push_back(i);
+	for (std::int32_t i = count; i > 0; i--) shape.loops.push_back(count + i - 1);
 	shape.faces.resize(2);
-	shape.faces[0] = {normal.normalized(), 0, 0, 3};
-	shape.faces[1] = {-normal.normalized(), 0, 3, 3};
-	for (int i = 0; i < 3; i++) {
-		const int j = (i + 1) % 3;
-		const Vector3 along = shape.vertices[j] - shape.vertices[i];
+	shape.faces[0] = {normal.normalized(), 0, 0, count};
+	shape.faces[1] = {-normal.normalized(), 0, count, count};
+	for (std::int32_t i = 0; i < count; i++) {
+		const std::int32_t j = (i + 1) % count;
+		const Vector3 along = corners[j] - corners[i];
 		shape.faces.push_back({along.cross(normal).normalized(), 0, static_cast<std::int32_t>(shape.loops.size()), 4});
-		shape.loops.insert(shape.loops.end(), {i, i + 3, j + 3, j});
+		shape.loops.insert(shape.loops.end(), {i, i + count, j + count, j});
 	}
 	shape.complete();
 	return shape;

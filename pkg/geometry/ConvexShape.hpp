@@ -8,7 +8,7 @@ namespace contactdynamics {
 
 using Vector3 = Eigen::Vector3d;
 
-/// A convex polyhedron in its own frame. A triangle is one, too: a prism without thickness.
+/// A convex polyhedron in its own frame. A plate is one, too: a prism without thickness.
 struct ConvexShape {
 	struct Face {
 		Vector3 normal = Vector3::Zero();  ///< unit, outward
@@ -42,8 +42,8 @@ ConvexShape convexHull(const std::vector<Vector3>& points);
 /// A cuboid around the origin with half edges `half`, all > 0 [m].
 ConvexShape cuboid(const Vector3& half);
 
-/// The triangle a, b, c, with both sides as faces and its edges as faces of no width in between.
-/// @throws std::invalid_argument  corners not finite, or in one line
-ConvexShape triangle(const Vector3& a, const Vector3& b, const Vector3& c);
+/// The plane convex polygon with these corners, in order: both sides are faces, and its edges faces of no width in between.
+/// @throws std::invalid_argument  fewer than three corners, one that is not finite, or the first three in one line
+ConvexShape plate(const std::vector<Vector3>& corners);
 
 } // namespace contactdynamics

@@ -25,6 +25,8 @@ from yade import FrictMat, Matrix3, O, Vector3, utils, wrapper
 from ._presets import engines as _engines
 
 _AXES = {"x": 0, "y": 1, "z": 2}
+# The bit of Body.mask that the walls have: they overlap along their edges and must not touch each other.
+_WALLS = 1 << 20
 
 
 def box(low: Sequence[float], high: Sequence[float], friction: float = 0, material: Any = None) -> list[int]:
@@ -44,7 +46,10 @@ def box(low: Sequence[float], high: Sequence[float], friction: float = 0, materi
     if material is None:
         material = FrictMat(young=1e7, poisson=0.3, frictionAngle=math.atan(friction), density=2600)
     # The walls overhang, so that no grain slips past an edge while they move.
-    return O.bodies.append(utils.aabbWalls([Vector3(*low), Vector3(*high)], thickness=0, oversizeFactor=2, material=material))
+    walls = utils.aabbWalls([Vector3(*low), Vector3(*high)], thickness=0, oversizeFactor=2, material=material)
+    for wall in walls:
+        wall.mask |= _WALLS
+    return O.bodies.append(walls)
 
 
 def engines(walls: Sequence[int], stress: float | Sequence[float], maxStrainRate: float = math.inf, **more: Any) -> list:
@@ -59,6 +64,7 @@ def engines(walls: Sequence[int], stress: float | Sequence[float], maxStrainRate
     more.setdefault("gravity", (0, 0, 0))
     goal = Vector3(stress, stress, stress) if isinstance(stress, (int, float)) else Vector3(*stress)
     made = _engines(**more)
+    next(e for e in made if isinstance(e, wrapper.InsertionSortCollider)).avoidSelfInteractionMask = _WALLS
     place = next(i for i, e in enumerate(made) if isinstance(e, wrapper.ContactDynamicsEngine))
     made.insert(
         place,

@@ -66,7 +66,7 @@ TEST(ConvexShape, RefusesWhatHasNoVolume)
 	EXPECT_THROW(convexHull({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}, {4, 4, 4}}), std::invalid_argument);
 	EXPECT_THROW(convexHull({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}), std::invalid_argument);
 	EXPECT_THROW(convexHull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::nan("")}}), std::invalid_argument);
-	EXPECT_THROW(contactdynamics::triangle({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), std::invalid_argument);
+	EXPECT_THROW(contactdynamics::plate({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}), std::invalid_argument);
 }
 
 TEST(ConvexShape, HullDoesNotDependOnTheOrderOfThePoints)

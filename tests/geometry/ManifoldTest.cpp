@@ -7,7 +7,7 @@
 
 using namespace bodies;
 using contactdynamics::cuboid;
-using contactdynamics::triangle;
+using contactdynamics::plate;
 
 namespace {
 const ConvexShape cube = cuboid({0.5, 0.5, 0.5});
@@ -156,7 +156,7 @@ TEST(Manifold, FeaturesFollowASlidingCorner)
 
 TEST(Manifold, TriangleHasTwoSides)
 {
-	const ConvexShape facet = triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
+	const ConvexShape facet = plate({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}});
 	for (const double side : {1., -1.}) {
 		const Found found = contact(placed(facet, {0, 0, 0}), placed(cuboid({0.1, 0.1, 0.1}), {0, 0, side * 0.0999}), 0.01);
 		EXPECT_EQ(found.separation.normal, Vector3(0, 0, side));
@@ -168,7 +168,7 @@ TEST(Manifold, TriangleHasTwoSides)
 
 TEST(Manifold, TriangleSmallerThanTheFaceIsSupportedAtItsCorners)
 {
-	const ConvexShape facet = triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
+	const ConvexShape facet = plate({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}});
 	const Found found = contact(placed(facet, {0, 0, 0}), placed(cuboid({10, 10, 1}), {1, 2, 1.0001}), 0.01);
 	EXPECT_EQ(found.points.size(), 3u);
 	EXPECT_NEAR(supportArea(found.points), 2, 1e-14);

@@ -9,7 +9,7 @@
 using namespace bodies;
 using contactdynamics::convexHull;
 using contactdynamics::cuboid;
-using contactdynamics::triangle;
+using contactdynamics::plate;
 
 namespace {
 int attacks()
@@ -44,7 +44,7 @@ ConvexShape anyShape(Random& random)
 			b = random.vector();
 			c = random.vector();
 		} while ((b - a).cross(c - a).norm() < 0.01);
-		return triangle(a, b, c);
+		return plate({a, b, c});
 	}
 	default: {
 		std::vector<Vector3> points(4 + random.below(16));

@@ -175,6 +175,23 @@ def test_restitution_acts_at_each_point() -> None:
     assert vec(state(cube).angVel) == pytest.approx([0, 0, 0], abs=1e-9)
 
 
+def test_box_without_thickness_is_a_plate() -> None:
+    """As the walls of ``aabbWalls(thickness=0)``: a block lies on it at four points, from either side, and it cannot be a line."""
+    material()
+    plate = O.bodies.append(utils.box((0, 0, 0), (2, 2, 0), fixed=True, material=O.materials[0]))
+    above, below = block((0, 0, 0.5)), block((0.1, 0, -0.5))
+    for number in (above, below):
+        state(number).vel = Vector3(0, 0, -1 if number == above else 1)
+    equip(H, gravity=(0, 0, 0), tolerance=1e-10)
+    O.step()
+    for number in (above, below):
+        assert len(contact(plate, number).geom.points) == 4
+        assert state(number).vel.norm() < 1e-9
+    O.bodies[plate].shape.extents = Vector3(2, 0, 0)
+    with pytest.raises(RuntimeError, match="half edges are.*one may be zero"):
+        O.step()
+
+
 def test_cohesion_of_the_pair_is_shared_by_its_points() -> None:
     """The pull-off force of the pair holds, whatever the number of points."""
     strength = 500.0

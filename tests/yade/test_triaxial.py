@@ -51,7 +51,7 @@ def test_wall_obeys_its_equation_of_motion(gravity) -> None:
 def test_confinement_at_rest_and_report() -> None:
     """At rest both walls of every pair carry the goal; the tensor of all contacts agrees with the walls."""
     walls = cases.build(friction=0.3, tolerance=1e-6)
-    steps(500)
+    steps(1000)
     found = triaxial.report()
     # The error of a sum over the contacts of a wall is that of single contacts, 1e-6, times the spread of the forces and the size of the packing.
     assert found.wallStress == pytest.approx([-PRESSURE] * 3, rel=1e-3)
