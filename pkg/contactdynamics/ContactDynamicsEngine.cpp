@@ -146,7 +146,8 @@ void ContactDynamicsEngine::apply()
 
 void ContactDynamicsEngine::repair()
 {
-	// At the fixed cell in which repair works, a jammed packing has nowhere to go; where the stress determines the cell, both would pull at it for ever.
+	// At the fixed cell in which repair works, a jammed packing has nowhere to go; where the stress determines the cell, both would pull at it for
+	// ever.
 	const bool cellYields = cellController && cellController->stressMask != 0;
 	step->repairPenetration(*scene, cellYields ? 0 : repairRate, allowedOverlap);
 	remainingOverlap = step->remainingOverlap;

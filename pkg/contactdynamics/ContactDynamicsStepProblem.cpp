@@ -23,8 +23,9 @@ contactdynamics::BlockProblem ContactDynamicsStep::assembledProblem(const char* 
 		throw std::runtime_error(std::string("ContactDynamicsEngine.") + caller +
 								 ": no step has been solved yet (or the last one ended with an error before the solve).");
 	if (problem.meanField)
-		throw std::runtime_error(std::string("ContactDynamicsEngine.") + caller +
-								 ": the cell of a ContactDynamicsCellController couples all contacts with each other; such a problem has no sparse W.");
+		throw std::runtime_error(
+				std::string("ContactDynamicsEngine.") + caller +
+				": the cell of a ContactDynamicsCellController couples all contacts with each other; such a problem has no sparse W.");
 	const contactdynamics::GrainProblem grains = shifted.asSolved(problem);
 	std::vector<Matrix3r> frames(grains.contacts.size());
 	for (std::size_t i = 0; i < frames.size(); i++) {

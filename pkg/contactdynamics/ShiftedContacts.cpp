@@ -109,8 +109,8 @@ void ShiftedContacts::shift(contactdynamics::GrainProblem& problem, int index, C
 	shifts.push_back(made);
 }
 
-/// A bond breaks where its contact parts or slides. That it carries just its strength is not enough: of several contacts of the same two bodies some may,
-/// while the others hold, because how they share the force is not unique.
+/// A bond breaks where its contact parts or slides. That it carries just its strength is not enough: of several contacts of the same two bodies some
+/// may, while the others hold, because how they share the force is not unique.
 bool ShiftedContacts::breaks(const contactdynamics::GrainProblem& problem, const Shift& made, const Vector3r& slip, Real tolerance) const
 {
 	const contactdynamics::Contact& contact = problem.contacts[made.index];
