@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsCellController.hpp"
+#include "AdmittedValues.hpp"
 #include "RefuseAttribute.hpp"
 #include <core/Cell.hpp>
 #include <core/EnergyTracker.hpp>
@@ -26,39 +27,28 @@ void requireFinite(const char* name, const Matrix3r& matrix)
 }
 } // namespace
 
-void ContactDynamicsCellController::requireAdmissible(const Admitted& values)
+void ContactDynamicsCellController::requireAdmissible() const
 {
-	requireFinite("stress", values.stress);
+	requireFinite("stress", stress);
 	for (int i = 0; i < 3; i++)
 		for (int j = 0; j < i; j++)
-			if (std::abs(values.stress(i, j) - values.stress(j, i)) > 1e-12 * values.stress.norm())
-				refuseAttribute("ContactDynamicsCellController." + entry("stress", i, j), values.stress(i, j),
+			if (std::abs(stress(i, j) - stress(j, i)) > 1e-12 * stress.norm())
+				refuseAttribute("ContactDynamicsCellController." + entry("stress", i, j), stress(i, j),
 								"stress must be symmetric, and the component across the diagonal is another");
-	requireFinite("velGrad", values.velGrad);
-	if (values.stressMask < 0 || values.stressMask > 63)
-		refuseAttribute("ContactDynamicsCellController.stressMask", values.stressMask,
+	requireFinite("velGrad", velGrad);
+	if (stressMask < 0 || stressMask > 63)
+		refuseAttribute("ContactDynamicsCellController.stressMask", stressMask,
 						"it must be a sum of 1 (xx), 2 (yy), 4 (zz), 8 (yz), 16 (zx), 32 (xy)");
-	if (!(values.inertia >= 0 && std::isfinite(values.inertia)))
-		refuseAttribute("ContactDynamicsCellController.inertia", values.inertia, "it must be finite and not negative (0: from the bodies)");
-	if (!(values.maxStrainRate > 0)) refuseAttribute("ContactDynamicsCellController.maxStrainRate", values.maxStrainRate, "it must be positive");
+	if (!(inertia >= 0 && std::isfinite(inertia)))
+		refuseAttribute("ContactDynamicsCellController.inertia", inertia, "it must be finite and not negative (0: from the bodies)");
+	if (!(maxStrainRate > 0)) refuseAttribute("ContactDynamicsCellController.maxStrainRate", maxStrainRate, "it must be positive");
 }
 
 void ContactDynamicsCellController::postLoad(ContactDynamicsCellController&)
 {
-	const Admitted now = asked();
-	stress = admitted.stress;
-	velGrad = admitted.velGrad;
-	stressMask = admitted.stressMask;
-	inertia = admitted.inertia;
-	maxStrainRate = admitted.maxStrainRate;
-	requireAdmissible(now);
-	if (now.inertia != admitted.inertia) inertiaInUse = 0;
-	stress = now.stress;
-	velGrad = now.velGrad;
-	stressMask = now.stressMask;
-	inertia = now.inertia;
-	maxStrainRate = now.maxStrainRate;
-	admitted = now;
+	const Real before = std::get<3>(admitted);
+	admit(attributes(), admitted, [this] { requireAdmissible(); });
+	if (inertia != before) inertiaInUse = 0;
 }
 
 void ContactDynamicsCellController::action()
@@ -79,7 +69,7 @@ contactdynamics::MeanField ContactDynamicsCellController::freeMotion(const Scene
 	if (cell.homoDeform < Cell::HOMO_POS)
 		throw std::runtime_error("ContactDynamicsCellController: O.cell.homoDeform is " + std::to_string(cell.homoDeform) +
 								 "; it must be at least 1, so that the bodies follow the cell.");
-	requireAdmissible(asked()); // again: Python writes single components of a matrix past postLoad()
+	requireAdmissible(); // again: Python writes single components of a matrix past postLoad()
 	if (inertia > 0) inertiaInUse = inertia;
 	const Real volume = cell.hSize.determinant();
 	if (!(inertiaInUse > 0)) {

@@ -3,6 +3,7 @@
 #include <core/GlobalEngine.hpp>
 #include <pkg/solver/GrainProblem.hpp>
 #include <limits>
+#include <tuple>
 
 namespace yade {
 
@@ -25,13 +26,7 @@ public:
 	void apply(Scene& scene, const Matrix3r& gradient, const Matrix3r& moment, const Matrix3r& otherStress);
 
 private:
-	struct Admitted {
-		Matrix3r stress = Matrix3r::Zero(), velGrad = Matrix3r::Zero();
-		int stressMask = 7;
-		Real inertia = 0, maxStrainRate = std::numeric_limits<Real>::infinity();
-	} admitted;
-	Admitted asked() const { return {stress, velGrad, stressMask, inertia, maxStrainRate}; }
-	static void requireAdmissible(const Admitted& values);
+	void requireAdmissible() const;
 	bool controlsStress(int row, int column) const;
 
 public:
@@ -55,6 +50,9 @@ public:
 		((Real,work,0,Attr::readonly,"Work done by the cell on its contents since the start [J]: sum of h·V·σ:(L⁻+L⁺)/2. With ``O.trackEnergy`` its negative is ``O.energy['velGradWork']``, as of :yref:`PeriTriaxController`."))
 	);
 	// clang-format on
+private:
+	auto attributes() { return std::tie(stress, velGrad, stressMask, inertia, maxStrainRate); }
+	std::tuple<Matrix3r, Matrix3r, int, Real, Real> admitted{attributes()};
 };
 REGISTER_SERIALIZABLE(ContactDynamicsCellController);
 

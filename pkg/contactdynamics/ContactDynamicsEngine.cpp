@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsEngine.hpp"
+#include "AdmittedValues.hpp"
 #include "ContactDynamicsCellController.hpp"
 #include "ContactDynamicsStep.hpp"
 #include "DeferredError.hpp"
@@ -26,38 +27,26 @@ ContactDynamicsEngine::~ContactDynamicsEngine() = default;
 
 void ContactDynamicsEngine::createStep() { step = std::make_shared<Step>(); }
 
+void ContactDynamicsEngine::requireAdmissible() const
+{
+	if (!(tolerance > 0 && std::isfinite(tolerance))) refuseAttribute("ContactDynamicsEngine.tolerance", tolerance, "it must be positive and finite");
+	if (maxIterations < 1) refuseAttribute("ContactDynamicsEngine.maxIterations", maxIterations, "at least one sweep is needed");
+	if (contactLaw != "quasiInelasticShock" && contactLaw != "velocitySignorini" && contactLaw != "signorini")
+		refuseAttribute("ContactDynamicsEngine.contactLaw", '"' + contactLaw + '"',
+						"allowed are quasiInelasticShock, velocitySignorini and signorini");
+	if (onNonConvergence != "warn" && onNonConvergence != "raise" && onNonConvergence != "ignore")
+		refuseAttribute("ContactDynamicsEngine.onNonConvergence", '"' + onNonConvergence + '"', "allowed are warn, raise and ignore");
+	if (acceleration != "default" && acceleration != "none")
+		refuseAttribute("ContactDynamicsEngine.acceleration", '"' + acceleration + '"', "allowed are default and none");
+	if (!(repairRate >= 0 && repairRate <= 1))
+		refuseAttribute("ContactDynamicsEngine.repairRate", repairRate, "it must lie between 0 (no repair) and 1");
+	if (!(allowedOverlap >= 0 && std::isfinite(allowedOverlap)))
+		refuseAttribute("ContactDynamicsEngine.allowedOverlap", allowedOverlap, "it must be finite and not negative");
+}
+
 void ContactDynamicsEngine::postLoad(ContactDynamicsEngine&)
 {
-	const Admitted asked{tolerance, maxIterations, contactLaw, onNonConvergence, acceleration, repairRate, allowedOverlap};
-	tolerance = admitted.tolerance;
-	maxIterations = admitted.maxIterations;
-	contactLaw = admitted.contactLaw;
-	onNonConvergence = admitted.onNonConvergence;
-	acceleration = admitted.acceleration;
-	repairRate = admitted.repairRate;
-	allowedOverlap = admitted.allowedOverlap;
-	if (!(asked.tolerance > 0 && std::isfinite(asked.tolerance)))
-		refuseAttribute("ContactDynamicsEngine.tolerance", asked.tolerance, "it must be positive and finite");
-	if (asked.maxIterations < 1) refuseAttribute("ContactDynamicsEngine.maxIterations", asked.maxIterations, "at least one sweep is needed");
-	if (asked.contactLaw != "quasiInelasticShock" && asked.contactLaw != "velocitySignorini" && asked.contactLaw != "signorini")
-		refuseAttribute("ContactDynamicsEngine.contactLaw", '"' + asked.contactLaw + '"',
-						"allowed are quasiInelasticShock, velocitySignorini and signorini");
-	if (asked.onNonConvergence != "warn" && asked.onNonConvergence != "raise" && asked.onNonConvergence != "ignore")
-		refuseAttribute("ContactDynamicsEngine.onNonConvergence", '"' + asked.onNonConvergence + '"', "allowed are warn, raise and ignore");
-	if (asked.acceleration != "default" && asked.acceleration != "none")
-		refuseAttribute("ContactDynamicsEngine.acceleration", '"' + asked.acceleration + '"', "allowed are default and none");
-	if (!(asked.repairRate >= 0 && asked.repairRate <= 1))
-		refuseAttribute("ContactDynamicsEngine.repairRate", asked.repairRate, "it must lie between 0 (no repair) and 1");
-	if (!(asked.allowedOverlap >= 0 && std::isfinite(asked.allowedOverlap)))
-		refuseAttribute("ContactDynamicsEngine.allowedOverlap", asked.allowedOverlap, "it must be finite and not negative");
-	tolerance = asked.tolerance;
-	maxIterations = asked.maxIterations;
-	contactLaw = asked.contactLaw;
-	onNonConvergence = asked.onNonConvergence;
-	acceleration = asked.acceleration;
-	repairRate = asked.repairRate;
-	allowedOverlap = asked.allowedOverlap;
-	admitted = asked;
+	admit(attributes(), admitted, [this] { requireAdmissible(); });
 }
 
 void ContactDynamicsEngine::action()

@@ -3,6 +3,7 @@
 #include <core/GlobalEngine.hpp>
 #include <boost/python.hpp>
 #include <memory>
+#include <tuple>
 
 namespace yade {
 
@@ -33,12 +34,7 @@ private:
 	void apply();
 	void repair();
 
-	struct Admitted {
-		Real tolerance = 1e-4;
-		int maxIterations = 1000;
-		string contactLaw = "quasiInelasticShock", onNonConvergence = "warn", acceleration = "default";
-		Real repairRate = 0.1, allowedOverlap = 1e-5;
-	} admitted;
+	void requireAdmissible() const;
 	bool warned = false;
 
 public:
@@ -98,6 +94,8 @@ public:
 	// clang-format on
 private:
 	void createStep();
+	auto attributes() { return std::tie(tolerance, maxIterations, contactLaw, onNonConvergence, acceleration, repairRate, allowedOverlap); }
+	std::tuple<Real, int, string, string, string, Real, Real> admitted{attributes()};
 };
 REGISTER_SERIALIZABLE(ContactDynamicsEngine);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsMat.hpp"
+#include "AdmittedValues.hpp"
 #include "RefuseAttribute.hpp"
 #include <cmath>
 #include <limits>
@@ -8,39 +9,33 @@ namespace yade {
 
 YADE_PLUGIN((ContactDynamicsMat));
 
+namespace {
+void requireUpTo(Real limit, const char* allowed, const char* attribute, Real value)
+{
+	if (!(value >= 0 && value <= limit)) refuseAttribute(std::string("ContactDynamicsMat.") + attribute, value, allowed);
+}
+void requireCoefficient(const char* attribute, Real value) { requireUpTo(1, "it must lie in [0, 1]", attribute, value); }
+void requireNotNegative(const char* attribute, Real value)
+{
+	requireUpTo(std::numeric_limits<Real>::max(), "it must be finite and not negative", attribute, value);
+}
+} // namespace
+
 void ContactDynamicsMat::postLoad(ContactDynamicsMat&)
 {
-	struct Attribute {
-		const char* name;
-		Real* value;
-		Real limit;
-		const char* allowed;
-	};
-	const Real largest = std::numeric_limits<Real>::max();
-	const char* unbounded = "it must be finite and not negative";
-	const char* coefficient = "it must lie in [0, 1]";
-	const Attribute all[] = {
-			{"normalRestitution", &normalRestitution, 1, coefficient},
-			{"tangentialRestitution", &tangentialRestitution, 1, coefficient},
-			{"restitutionVelocity", &restitutionVelocity, largest, unbounded},
-			{"staticFrictionAngle", &staticFrictionAngle, std::nextafter(Real(M_PI_2), Real(0)), "it must lie in [0, pi/2)"},
-			{"cohesionForce", &cohesionForce, largest, unbounded},
-			{"cohesionStress", &cohesionStress, largest, unbounded},
-			{"kn", &kn, largest, unbounded},
-			{"ks", &ks, largest, unbounded},
-			{"normalDamping", &normalDamping, largest, unbounded},
-			{"rollingFriction", &rollingFriction, largest, unbounded},
-			{"twistingFriction", &twistingFriction, largest, unbounded},
-	};
-	std::vector<Real> asked;
-	for (const Attribute& a : all) {
-		asked.push_back(*a.value);
-		if (*a.value >= 0 && *a.value <= a.limit) continue;
-		const Real refused = *a.value;
-		for (std::size_t i = 0; i < admitted.size(); i++) *all[i].value = admitted[i];
-		refuseAttribute(std::string("ContactDynamicsMat.") + a.name, refused, a.allowed);
-	}
-	admitted = asked;
+	admit(attributes(), admitted, [this] {
+		requireCoefficient("normalRestitution", normalRestitution);
+		requireCoefficient("tangentialRestitution", tangentialRestitution);
+		requireNotNegative("restitutionVelocity", restitutionVelocity);
+		requireUpTo(std::nextafter(Real(M_PI_2), Real(0)), "it must lie in [0, pi/2)", "staticFrictionAngle", staticFrictionAngle);
+		requireNotNegative("cohesionForce", cohesionForce);
+		requireNotNegative("cohesionStress", cohesionStress);
+		requireNotNegative("kn", kn);
+		requireNotNegative("ks", ks);
+		requireNotNegative("normalDamping", normalDamping);
+		requireNotNegative("rollingFriction", rollingFriction);
+		requireNotNegative("twistingFriction", twistingFriction);
+	});
 }
 
 } // namespace yade

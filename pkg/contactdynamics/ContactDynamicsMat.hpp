@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <pkg/common/ElastMat.hpp>
+#include <tuple>
 
 namespace yade {
 
@@ -10,10 +11,6 @@ public:
 	void postLoad(ContactDynamicsMat&);
 	virtual ~ContactDynamicsMat() = default;
 
-private:
-	std::vector<Real> admitted;
-
-public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(ContactDynamicsMat,FrictMat,
 		"Material whose contacts bounce, stick, yield or resist rolling under :yref:`ContactDynamicsEngine`. Everything is off by default, then it is a :yref:`FrictMat`. The laws enter by a change of variable (Jean 1999, sections 1.2, 2.1, 2.2): "
@@ -32,10 +29,18 @@ public:
 		((Real,rollingFriction,0,Attr::triggerPostLoad,"Rolling friction coefficient of spheres [-], ≥ 0: the torque against rolling is at most this times ρ R_N, with ρ = r₁r₂/(r₁+r₂), or the radius on a flat body. Only takes energy. Default 0."))
 		((Real,twistingFriction,0,Attr::triggerPostLoad,"The same about the contact normal [-], ≥ 0. Default 0."))
 		,
-		createIndex(); postLoad(*this);
+		createIndex();
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(ContactDynamicsMat, FrictMat);
+
+private:
+	auto attributes()
+	{
+		return std::tie(normalRestitution, tangentialRestitution, restitutionVelocity, staticFrictionAngle, cohesionForce, cohesionStress, kn, ks,
+						normalDamping, rollingFriction, twistingFriction);
+	}
+	std::tuple<Real, Real, Real, Real, Real, Real, Real, Real, Real, Real, Real> admitted{attributes()};
 };
 REGISTER_SERIALIZABLE(ContactDynamicsMat);
 

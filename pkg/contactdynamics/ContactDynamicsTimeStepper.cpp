@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsTimeStepper.hpp"
+#include "AdmittedValues.hpp"
 #include "LargestRates.hpp"
 #include "RefuseAttribute.hpp"
 #include <core/Scene.hpp>
@@ -36,29 +37,17 @@ void requirePlace(const Scene& scene, const Engine& self)
 }
 } // namespace
 
-void ContactDynamicsTimeStepper::put(const Bounds& bounds)
-{
-	maxDisplacement = bounds.maxDisplacement;
-	maxRotation = bounds.maxRotation;
-	proximityDistance = bounds.proximityDistance;
-	minTimeStep = bounds.minTimeStep;
-	maxTimeStep = bounds.maxTimeStep;
-	growth = bounds.growth;
-}
-
 void ContactDynamicsTimeStepper::postLoad(ContactDynamicsTimeStepper&)
 {
-	const Bounds asked{maxDisplacement, maxRotation, proximityDistance, minTimeStep, maxTimeStep, growth};
-	put(admitted);
-	require(positive(asked.maxDisplacement), "maxDisplacement", asked.maxDisplacement, "it must be positive and finite");
-	require(positive(asked.maxRotation), "maxRotation", asked.maxRotation, "it must be positive and finite");
-	require(notNegative(asked.proximityDistance), "proximityDistance", asked.proximityDistance, "it must be finite and not negative");
-	require(notNegative(asked.minTimeStep), "minTimeStep", asked.minTimeStep, "it must be finite and not negative");
-	require(notNegative(asked.maxTimeStep), "maxTimeStep", asked.maxTimeStep, "it must be finite and not negative");
-	require(asked.maxTimeStep == 0 || asked.maxTimeStep >= asked.minTimeStep, "maxTimeStep", asked.maxTimeStep, "it must not be below minTimeStep");
-	require(asked.growth >= 1 && std::isfinite(asked.growth), "growth", asked.growth, "it must be finite and at least 1");
-	put(asked);
-	admitted = asked;
+	admit(attributes(), admitted, [this] {
+		require(positive(maxDisplacement), "maxDisplacement", maxDisplacement, "it must be positive and finite");
+		require(positive(maxRotation), "maxRotation", maxRotation, "it must be positive and finite");
+		require(notNegative(proximityDistance), "proximityDistance", proximityDistance, "it must be finite and not negative");
+		require(notNegative(minTimeStep), "minTimeStep", minTimeStep, "it must be finite and not negative");
+		require(notNegative(maxTimeStep), "maxTimeStep", maxTimeStep, "it must be finite and not negative");
+		require(maxTimeStep == 0 || maxTimeStep >= minTimeStep, "maxTimeStep", maxTimeStep, "it must not be below minTimeStep");
+		require(growth >= 1 && std::isfinite(growth), "growth", growth, "it must be finite and at least 1");
+	});
 }
 
 void ContactDynamicsTimeStepper::computeTimeStep(Scene* scene)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <core/TimeStepper.hpp>
+#include <tuple>
 
 namespace yade {
 
@@ -11,13 +12,6 @@ public:
 	void postLoad(ContactDynamicsTimeStepper&);
 	virtual ~ContactDynamicsTimeStepper() = default;
 
-private:
-	struct Bounds {
-		Real maxDisplacement = 0.25, maxRotation = 0.5, proximityDistance = 0, minTimeStep = 0, maxTimeStep = 0, growth = 1.2;
-	} admitted;
-	void put(const Bounds& bounds);
-
-public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(ContactDynamicsTimeStepper,TimeStepper,
 		"Sets ``O.dt`` before every step from the motion of the bodies, for :yref:`ContactDynamicsEngine`: rigid contacts have no stiffness to take a time step from, so what limits the step is how far bodies go in it. "
@@ -36,6 +30,9 @@ public:
 		((string,limitedBy,"",Attr::readonly,"What determined the last time step: ``displacement``, ``rotation``, ``proximity``, ``growth``, ``minTimeStep``, ``maxTimeStep``, or nothing (empty) if nothing moves."))
 	);
 	// clang-format on
+private:
+	auto attributes() { return std::tie(maxDisplacement, maxRotation, proximityDistance, minTimeStep, maxTimeStep, growth); }
+	std::tuple<Real, Real, Real, Real, Real, Real> admitted{attributes()};
 };
 REGISTER_SERIALIZABLE(ContactDynamicsTimeStepper);
 

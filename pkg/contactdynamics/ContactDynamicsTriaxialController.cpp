@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsTriaxialController.hpp"
+#include "AdmittedValues.hpp"
 #include "RefuseAttribute.hpp"
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
@@ -24,46 +25,35 @@ Real halfThickness(const Shape* shape, int axis)
 }
 } // namespace
 
-void ContactDynamicsTriaxialController::requireAdmissible(const Admitted& values)
+void ContactDynamicsTriaxialController::requireAdmissible() const
 {
 	std::ostringstream list;
-	for (const int id : values.walls) list << (list.tellp() > 0 ? ", " : "") << '#' << id;
-	vector<int> sorted = values.walls;
+	for (const int id : walls) list << (list.tellp() > 0 ? ", " : "") << '#' << id;
+	vector<int> sorted = walls;
 	std::sort(sorted.begin(), sorted.end());
 	const bool different = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 	if (!sorted.empty() && !(sorted.size() == 6 && different && sorted[0] >= 0))
 		refuseAttribute("ContactDynamicsTriaxialController.walls", list.str(),
 						"it must be six different ids of bodies, those at -x, +x, -y, +y, -z and +z");
 	for (int axis = 0; axis < 3; axis++) {
-		if (!(values.stress[axis] <= 0 && std::isfinite(values.stress[axis])))
-			refuseAttribute("ContactDynamicsTriaxialController.stress", values.stress.transpose(),
+		if (!(stress[axis] <= 0 && std::isfinite(stress[axis])))
+			refuseAttribute("ContactDynamicsTriaxialController.stress", stress.transpose(),
 							"each must be finite and not positive (compression is negative)");
-		if (!std::isfinite(values.strainRate[axis]))
-			refuseAttribute("ContactDynamicsTriaxialController.strainRate", values.strainRate.transpose(), "each must be finite");
+		if (!std::isfinite(strainRate[axis]))
+			refuseAttribute("ContactDynamicsTriaxialController.strainRate", strainRate.transpose(), "each must be finite");
 	}
-	if (values.stressMask < 0 || values.stressMask > 7)
-		refuseAttribute("ContactDynamicsTriaxialController.stressMask", values.stressMask, "it must be a sum of 1 (x), 2 (y), 4 (z)");
-	if (!(values.wallMass >= 0 && std::isfinite(values.wallMass)))
-		refuseAttribute("ContactDynamicsTriaxialController.wallMass", values.wallMass, "it must be finite and not negative (0: from the bodies)");
-	if (!(values.maxStrainRate > 0)) refuseAttribute("ContactDynamicsTriaxialController.maxStrainRate", values.maxStrainRate, "it must be positive");
+	if (stressMask < 0 || stressMask > 7)
+		refuseAttribute("ContactDynamicsTriaxialController.stressMask", stressMask, "it must be a sum of 1 (x), 2 (y), 4 (z)");
+	if (!(wallMass >= 0 && std::isfinite(wallMass)))
+		refuseAttribute("ContactDynamicsTriaxialController.wallMass", wallMass, "it must be finite and not negative (0: from the bodies)");
+	if (!(maxStrainRate > 0)) refuseAttribute("ContactDynamicsTriaxialController.maxStrainRate", maxStrainRate, "it must be positive");
 }
 
 void ContactDynamicsTriaxialController::postLoad(ContactDynamicsTriaxialController&)
 {
-	const Admitted now = asked();
-	const auto put = [this](const Admitted& values) {
-		walls = values.walls;
-		stress = values.stress;
-		strainRate = values.strainRate;
-		stressMask = values.stressMask;
-		wallMass = values.wallMass;
-		maxStrainRate = values.maxStrainRate;
-	};
-	put(admitted);
-	requireAdmissible(now);
-	if (now.wallMass != admitted.wallMass) wallMassInUse = 0;
-	put(now);
-	admitted = now;
+	const Real before = std::get<4>(admitted);
+	admit(attributes(), admitted, [this] { requireAdmissible(); });
+	if (wallMass != before) wallMassInUse = 0;
 }
 
 const Body& ContactDynamicsTriaxialController::wall(int place) const
@@ -135,7 +125,7 @@ void ContactDynamicsTriaxialController::drive(int axis)
 
 void ContactDynamicsTriaxialController::action()
 {
-	requireAdmissible(asked()); // again: Python writes single components of a vector past postLoad()
+	requireAdmissible(); // again: Python writes single components of a vector past postLoad()
 	if (walls.empty())
 		throw std::runtime_error("ContactDynamicsTriaxialController.walls is empty: it must be six ids. contactdynamics.triaxial.box() builds them.");
 	size = measureSize();

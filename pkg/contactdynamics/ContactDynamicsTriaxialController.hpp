@@ -3,6 +3,7 @@
 #include <core/GlobalEngine.hpp>
 #include <core/Body.hpp>
 #include <limits>
+#include <tuple>
 
 namespace yade {
 
@@ -15,14 +16,7 @@ public:
 	virtual ~ContactDynamicsTriaxialController() = default;
 
 private:
-	struct Admitted {
-		vector<int> walls;
-		Vector3r stress = Vector3r::Zero(), strainRate = Vector3r::Zero();
-		int stressMask = 7;
-		Real wallMass = 0, maxStrainRate = std::numeric_limits<Real>::infinity();
-	} admitted;
-	Admitted asked() const { return {walls, stress, strainRate, stressMask, wallMass, maxStrainRate}; }
-	static void requireAdmissible(const Admitted& values);
+	void requireAdmissible() const;
 	const Body& wall(int place) const;
 	Vector3r measureSize() const;
 	void takeMass();
@@ -48,6 +42,9 @@ public:
 		((Vector3r,strain,Vector3r::Zero(),Attr::readonly,"Logarithmic strain ln(size/referenceSize) along the axes, at the start of the last step [-], positive in extension."))
 	);
 	// clang-format on
+private:
+	auto attributes() { return std::tie(walls, stress, strainRate, stressMask, wallMass, maxStrainRate); }
+	std::tuple<vector<int>, Vector3r, Vector3r, int, Real, Real> admitted{attributes()};
 };
 REGISTER_SERIALIZABLE(ContactDynamicsTriaxialController);
 
