@@ -84,15 +84,20 @@ private:
 	struct Manifold { // contact with several points, each of which is a link
 		ManifoldGeom* geom;
 		ContactDynamicsManifoldPhys* phys;
+		Interaction* interaction;
 	};
 	struct Load {
 		Vector3r force, torque;
 	};
 
+	contactdynamics::SolveReport solveOnce(const contactdynamics::SolverOptions& options);
+	contactdynamics::SolveReport solveAtRest(const contactdynamics::SolverOptions& options);
+	bool standsStill() const;
 	contactdynamics::BlockProblem assembledProblem(const char* caller) const;
 	void gatherInteractions(const Scene& scene);
 	void settleSurfaceSeams(const Scene& scene);
-	static void passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts);
+	void settleBlockSeamsOf(const Scene& scene);
+	void passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts) const;
 	void describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const;
 	void requireUsable(const Link& link, const contactdynamics::Contact& contact) const;
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;

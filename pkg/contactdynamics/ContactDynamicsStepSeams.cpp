@@ -14,8 +14,9 @@
 namespace yade {
 
 /// A sphere that rolls over a seam takes the start of the solve along: the impulse goes from the contact that is left to the one that follows it.
-void ContactDynamicsStep::passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts)
+void ContactDynamicsStep::passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts) const
 {
+	const auto sphereIsFirst = [&](std::size_t i) { return views[group[i]->interaction->getId1()].radius > 0; };
 	constexpr Real alike = 0.9; // cosine of the angle between normals of contacts that take over from each other
 	for (std::size_t from = 0; from < contacts.size(); from++) {
 		Vector3r& impulse = group[from]->phys->impulse;
@@ -23,7 +24,7 @@ void ContactDynamicsStep::passOnImpulses(Link* const* group, const std::vector<S
 		for (std::size_t to = 0; to < contacts.size(); to++) {
 			if (contacts[to].role == SurfaceContact::Role::left || group[to]->phys->impulse != Vector3r::Zero()) continue;
 			if (contacts[to].normal.dot(contacts[from].normal) < alike) continue;
-			group[to]->phys->impulse = impulse;
+			group[to]->phys->impulse = (sphereIsFirst(from) == sphereIsFirst(to) ? 1 : -1) * impulse;
 			break;
 		}
 		impulse = Vector3r::Zero();
@@ -32,25 +33,32 @@ void ContactDynamicsStep::passOnImpulses(Link* const* group, const std::vector<S
 
 void ContactDynamicsStep::settleSurfaceSeams(const Scene& scene)
 {
+	const auto shiftOfImage = [&](const Interaction& interaction) {
+		return scene.isPeriodic ? Vector3r(scene.cell->hSize * interaction.cellDist.cast<Real>()) : Vector3r(Vector3r::Zero());
+	};
 	// Links of spheres with more than one surface, by sphere and image of space, and by the surface's id within. Seldom many.
 	std::vector<int> surfacesOf(views.size(), 0);
 	const auto ofSurface = [&](const Link& link) {
-		return views[link.interaction->getId1()].radius == 0 && views[link.interaction->getId2()].radius > 0;
+		return (views[link.interaction->getId1()].radius > 0) != (views[link.interaction->getId2()].radius > 0);
 	};
+	// The sphere is body 2, but for polyhedra.
+	const auto sphereIsFirst = [&](const Link& link) { return views[link.interaction->getId1()].radius > 0; };
+	const auto sphereOf = [&](const Link& link) { return sphereIsFirst(link) ? link.interaction->getId1() : link.interaction->getId2(); };
+	const auto surfaceOf = [&](const Link& link) { return sphereIsFirst(link) ? link.interaction->getId2() : link.interaction->getId1(); };
 	for (const Link& link : links)
-		if (ofSurface(link)) surfacesOf[link.interaction->getId2()]++;
+		if (ofSurface(link)) surfacesOf[sphereOf(link)]++;
 	std::vector<Link*> shared;
 	for (Link& link : links)
-		if (ofSurface(link) && surfacesOf[link.interaction->getId2()] > 1) shared.push_back(&link);
-	const auto image = [](const Link* link) { return std::make_tuple(link->interaction->getId2(), link->interaction->getId1()); };
+		if (ofSurface(link) && surfacesOf[sphereOf(link)] > 1) shared.push_back(&link);
+	const auto image = [&](const Link* link) { return std::make_tuple(sphereOf(*link), surfaceOf(*link)); };
 	std::sort(shared.begin(), shared.end(), [&](const Link* a, const Link* b) { return image(a) < image(b); });
 	std::vector<std::size_t> starts;
 	for (std::size_t i = 0; i < shared.size(); i++)
-		if (i == 0 || shared[i]->interaction->getId2() != shared[i - 1]->interaction->getId2()) starts.push_back(i);
+		if (i == 0 || sphereOf(*shared[i]) != sphereOf(*shared[i - 1])) starts.push_back(i);
 	starts.push_back(shared.size());
 
 	parallelLoop(static_cast<long>(starts.size()) - 1, [&](long group) {
-		const BodyView& sphere = views[shared[starts[group]]->interaction->getId2()];
+		const BodyView& sphere = views[sphereOf(*shared[starts[group]])];
 		const auto advanceAt = [&](const BodyView& view, const Vector3r& arm) { // of a point of the body, from the body's own position
 			const Twist& twist = free[view.index];
 			const Vector3r fromCentre = view.state->pos - views[idOfIndex[view.index]].state->pos + arm;
@@ -61,12 +69,14 @@ void ContactDynamicsStep::settleSurfaceSeams(const Scene& scene)
 		for (std::size_t i = starts[group]; i < starts[group + 1]; i++) {
 			const Interaction& interaction = *shared[i]->interaction;
 			const ScGeom& geom = static_cast<const ScGeom&>(*interaction.geom);
-			const BodyView& view = views[interaction.getId1()];
-			const Vector3r shift = scene.isPeriodic ? Vector3r(scene.cell->hSize * interaction.cellDist.cast<Real>()) : Vector3r(Vector3r::Zero());
+			const int surface = surfaceOf(*shared[i]);
+			const BodyView& view = views[surface];
+			const Real side = sphereIsFirst(*shared[i]) ? -1 : 1;
+			const Vector3r shift = side * shiftOfImage(interaction); // of the sphere, as seen from the surface
 			const Vector3r origin = view.state->pos - sphere.state->pos - shift;
-			const Vector3r point = -(sphere.radius - geom.penetrationDepth) * geom.normal;
-			contacts.push_back({Surface(*(*scene.bodies)[interaction.getId1()]->shape, *view.state, origin), interaction.getId1(), geom.normal,
-								-geom.penetrationDepth, advanceAt(view, point - origin) - h * (velGrad * shift)});
+			const Vector3r normal = side * geom.normal, point = -(sphere.radius - geom.penetrationDepth) * normal;
+			contacts.push_back({Surface((*scene.bodies)[surface]->shape, *view.state, origin), surface, normal, -geom.penetrationDepth,
+								advanceAt(view, point - origin) - h * (velGrad * shift)});
 		}
 		settleSeams(sphere.radius, advance, contacts);
 		passOnImpulses(shared.data() + starts[group], contacts);
@@ -75,10 +85,13 @@ void ContactDynamicsStep::settleSurfaceSeams(const Scene& scene)
 			const SurfaceContact& contact = contacts[i];
 			if (contact.role == SurfaceContact::Role::left) link.solved = false;
 			if (contact.role != SurfaceContact::Role::replaced) continue;
-			const Vector3r point = sphere.state->pos - (sphere.radius + contact.gap) * contact.normal; // as if the surface were its tangent plane
-			const Vector3r shift =
-					scene.isPeriodic ? Vector3r(scene.cell->hSize * link.interaction->cellDist.cast<Real>()) : Vector3r(Vector3r::Zero());
-			updateScGeom(*link.interaction, {point + shift, contact.normal, contact.gap, sphere.radius, sphere.radius});
+			// As if the surface were its tangent plane.
+			if (sphereIsFirst(link))
+				updateScGeom(*link.interaction,
+							 {sphere.state->pos - sphere.radius * contact.normal, -contact.normal, contact.gap, sphere.radius, sphere.radius});
+			else
+				updateScGeom(*link.interaction, {sphere.state->pos + shiftOfImage(*link.interaction) - (sphere.radius + contact.gap) * contact.normal,
+												 contact.normal, contact.gap, sphere.radius, sphere.radius});
 		}
 	});
 }

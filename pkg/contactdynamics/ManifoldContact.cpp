@@ -5,6 +5,7 @@
 #include "ManifoldGeom.hpp"
 #include "ProximityGeometry.hpp"
 #include "Reach.hpp"
+#include <core/Cell.hpp>
 #include <pkg/geometry/Manifold.hpp>
 #include <algorithm>
 #include <typeinfo>
@@ -57,6 +58,23 @@ bool fill(Interaction& interaction, const contactdynamics::Separation& separatio
 	return true;
 }
 
+/// Puts both bodies into the work space. YADE may call the bodies of a pair of equal shape classes in either order, another one after O.load: the
+/// smaller id comes first here, so that the last bits do not depend on it. Coordinates are taken from the middle of the smaller body, where contact
+/// points are near.
+struct Placing {
+	bool swapped;
+	Vector3r origin;
+
+	Placing(const Interaction& interaction, const contactdynamics::ConvexShape& convex1, const contactdynamics::ConvexShape& convex2, bool sameClass,
+			const State& state1, const State& state2, const Vector3r& position2)
+		: swapped(sameClass && interaction.getId1() > interaction.getId2()),
+		  origin(convex1.radius < convex2.radius || (convex1.radius == convex2.radius && swapped) ? state1.pos : position2)
+	{
+		work.one.place(swapped ? convex2 : convex1, (swapped ? state2 : state1).ori.toRotationMatrix(), (swapped ? position2 : state1.pos) - origin);
+		work.two.place(swapped ? convex1 : convex2, (swapped ? state1 : state2).ori.toRotationMatrix(), (swapped ? state1.pos : position2) - origin);
+	}
+};
+
 DecidingFeature lastFeature(const Interaction& interaction)
 {
 	const auto* geom = dynamic_cast<const ManifoldGeom*>(interaction.geom.get());
@@ -90,17 +108,26 @@ bool updateManifold(const Scene& scene, Interaction& interaction, const shared_p
 	// Balls around the two bodies that are apart: most pairs of bounding boxes end here.
 	if (ends && (position2 - state1.pos).norm() > convex1->radius + convex2->radius + reach) return false;
 
-	// YADE may call the bodies of a pair of equal shape classes in either order, another one after O.load: the smaller id comes first here, so
-	// that the last bits do not depend on it. Coordinates are taken from the middle of the smaller body, where contact points are near.
-	const bool swapped = typeid(*shape1) == typeid(*shape2) && interaction.getId1() > interaction.getId2();
-	const Vector3r origin = convex1->radius < convex2->radius || (convex1->radius == convex2->radius && swapped) ? state1.pos : position2;
-	work.one.place(swapped ? *convex2 : *convex1, (swapped ? state2 : state1).ori.toRotationMatrix(), (swapped ? position2 : state1.pos) - origin);
-	work.two.place(swapped ? *convex1 : *convex2, (swapped ? state1 : state2).ori.toRotationMatrix(), (swapped ? state1.pos : position2) - origin);
+	const Placing placing(interaction, *convex1, *convex2, typeid(*shape1) == typeid(*shape2), state1, state2, position2);
 	// A real pair that goes apart has to be seen beyond the reach, too: the law ends it then by its gap.
 	contactdynamics::Separation separation = findManifold(work.one, work.two, reach, lastFeature(interaction), work.points);
 	if (ends && separation.gap > reach) return false;
-	if (swapped) separation.normal = -separation.normal;
-	return fill(interaction, separation, work.points, origin, state1.pos, position2);
+	if (placing.swapped) separation.normal = -separation.normal;
+	return fill(interaction, separation, work.points, placing.origin, state1.pos, position2);
+}
+
+void turnManifold(const Scene& scene, Interaction& interaction, const Vector3r& normal, Real beside)
+{
+	const Body &body1 = *(*scene.bodies)[interaction.getId1()], &body2 = *(*scene.bodies)[interaction.getId2()];
+	const Vector3r position2 =
+			body2.state->pos + (scene.isPeriodic ? Vector3r(scene.cell->hSize * interaction.cellDist.cast<Real>()) : Vector3r(Vector3r::Zero()));
+	const Placing placing(interaction, ConvexShapes::of(body1.shape), ConvexShapes::of(body2.shape), typeid(*body1.shape) == typeid(*body2.shape),
+						  *body1.state, *body2.state, position2);
+	const Real reach = Reach::ofPair(scene, interaction.getId1(), interaction.getId2());
+	contactdynamics::Separation separation =
+			findManifoldAlong(work.one, work.two, placing.swapped ? Vector3r(-normal) : normal, reach, beside, work.points);
+	separation.normal = normal;
+	fill(interaction, separation, work.points, placing.origin, body1.state->pos, position2);
 }
 
 bool updateManifoldOnWall(const Scene& scene, Interaction& interaction, const Wall& wall, const shared_ptr<Shape>& shape2, const State& state1,

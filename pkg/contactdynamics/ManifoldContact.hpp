@@ -15,7 +15,12 @@ const contactdynamics::ConvexShape* convexShape(const Scene& scene, const Intera
 bool updateManifold(const Scene& scene, Interaction& interaction, const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2,
 					const State& state1, const State& state2, const Vector3r& shift2, bool force);
 
-/// The same for a wall (body 1) and a Polyhedra or Box.
+/// Gives a manifold of two convex polyhedra another direction, and the points that are seen along it.
+/// @param normal  unit, from body 1 to body 2
+/// @param beside  see findManifoldAlong() [m]
+void turnManifold(const Scene& scene, Interaction& interaction, const Vector3r& normal, Real beside);
+
+/// As updateManifold(), for a wall (body 1) and a Polyhedra or Box.
 bool updateManifoldOnWall(const Scene& scene, Interaction& interaction, const Wall& wall, const shared_ptr<Shape>& shape2, const State& state1,
 						  const State& state2, const Vector3r& shift2, bool force);
 

@@ -9,16 +9,12 @@ using Role = SurfaceContact::Role;
 
 Vector3r nearestPoint(const SurfaceContact& contact, Real radius) { return -(radius + contact.gap) * contact.normal; }
 
-/// Distance below which two points of a mesh are the same. Vertices of neighbouring facets agree to round-off only (each is stored relative
-/// to its own facet's centre), and files of meshes hold single precision, which matters where edges meet in the middle of others.
-Real closeness(Real size, Real radius) { return std::max(1e-8 * size, std::min(1e-6 * size, 1e-4 * radius)); }
-
 /// Whether `one` belongs to what `other`, a contact of the same sphere, already gives.
 bool doubles(const SurfaceContact& one, const SurfaceContact& other, Real radius)
 {
 	const Vector3r point = nearestPoint(one, radius), otherPoint = nearestPoint(other, radius);
 	const Real size = std::max({point.norm(), one.surface.size(), other.surface.size()});
-	const Real close = closeness(size, radius);
+	const Real close = seamCloseness(size, radius);
 	if (!other.surface.mayBeWithin(point, close)) return false;
 	if ((other.surface.nearest(point) - point).norm() > close) return false;
 	if ((one.surface.nearest(otherPoint) - otherPoint).norm() > close) return true;
@@ -31,14 +27,14 @@ bool doubles(const SurfaceContact& one, const SurfaceContact& other, Real radius
 bool isBehind(const Surface& surface, const SurfaceContact& front, Real radius)
 {
 	const Real plane = -(radius + front.gap);
-	return surface.extent(front.normal) <= plane + closeness(surface.size(), radius);
+	return surface.extent(front.normal) <= plane + seamCloseness(surface.size(), radius);
 }
 
 /// The plane of the facet beyond the edge that is nearest, if it separates facet and sphere, but for an overlap of the sphere that is there anyway.
 bool takeFace(SurfaceContact& contact, Real radius, Real overlap)
 {
 	const Vector3r point = nearestPoint(contact, radius);
-	if (!contact.surface.isFacet() || !contact.surface.insideEdge(point, closeness(contact.surface.size(), radius))) return false;
+	if (!contact.surface.isFacet() || !contact.surface.insideEdge(point, seamCloseness(contact.surface.size(), radius))) return false;
 	Vector3r normal = contact.surface.faceNormal();
 	if (normal.dot(point) > 0) normal = -normal;
 	const Real gap = -normal.dot(point) - radius;
@@ -94,6 +90,8 @@ Vector3r admitted(const Vector3r& advance, const std::vector<SurfaceContact>& co
 	return way;
 }
 } // namespace
+
+Real seamCloseness(Real size, Real radius) { return std::max(1e-8 * size, std::min(1e-6 * size, 1e-4 * radius)); }
 
 void settleSeams(Real radius, const Vector3r& advance, std::vector<SurfaceContact>& contacts)
 {

@@ -36,4 +36,10 @@ struct SurfaceContact {
 /// @param contacts all surfaces that the sphere is near to, in ascending order of their ids; the result is in role, normal and gap
 void settleSeams(Real radius, const Vector3r& advance, std::vector<SurfaceContact>& contacts);
 
+/// Distance below which two points of a mesh are the same. Vertices of neighbouring facets agree to round-off only (each is stored relative
+/// to its own facet's centre), and files of meshes hold single precision, which matters where edges meet in the middle of others.
+/// @param size    of what is compared [m]
+/// @param radius  of the body that touches the mesh [m]
+Real seamCloseness(Real size, Real radius);
+
 } // namespace yade

@@ -94,11 +94,12 @@ private:
 
 class Overlay {
 public:
-	Overlay(const PlacedShape& one, const PlacedShape& two, const Separation& separation, double reach_, std::vector<ManifoldPoint>& points_)
+	Overlay(const PlacedShape& one, const PlacedShape& two, const Separation& separation, double reach_, double beside,
+			std::vector<ManifoldPoint>& points_)
 		: reach(reach_), points(points_), view(viewAlong(separation.normal))
 	{
 		const double smaller = std::min(one.shape->radius, two.shape->radius), larger = std::max(one.shape->radius, two.shape->radius);
-		close = std::max(1e-9 * smaller, 1e-14 * larger); // round-off of the coordinates is a hundredth of that
+		close = std::max({1e-9 * smaller, 1e-14 * larger, beside}); // round-off of the coordinates is a hundredth of the first two
 		same = 1e-6 * smaller;
 		leastGap = separation.gap - steady * smaller;
 		upper.survey(one, view, 1);
@@ -177,7 +178,7 @@ Separation findManifold(const PlacedShape& one, const PlacedShape& two, double r
 	const auto overlay = [&](const DecidingFeature& preferred) {
 		const Separation separation = separate(one, two, reach, preferred);
 		if (separation.gap > reach) return separation;
-		Overlay laid(one, two, separation, reach, points);
+		Overlay laid(one, two, separation, reach, 0, points);
 		laid.vertices();
 		laid.crossings();
 		return separation;
@@ -188,6 +189,21 @@ Separation findManifold(const PlacedShape& one, const PlacedShape& two, double r
 	if (last.kind != DecidingFeature::none) separation = overlay({});
 	// They touch at a corner of both, within round-off.
 	if (points.empty()) points.push_back({separation.witness, separation.gap, featureOfEdges(0x3fff, 0x3fff)});
+	return separation;
+}
+
+Separation findManifoldAlong(const PlacedShape& one, const PlacedShape& two, const Vector3& normal, double reach, double beside,
+							 std::vector<ManifoldPoint>& points)
+{
+	points.clear();
+	Separation separation;
+	separation.normal = normal;
+	separation.gap = two.lowest(normal) - one.highest(normal);
+	separation.witness = 0.5 * (one.centre + two.centre);
+	if (separation.gap > reach) return separation;
+	Overlay laid(one, two, separation, reach, beside, points);
+	laid.vertices();
+	laid.crossings();
 	return separation;
 }
 

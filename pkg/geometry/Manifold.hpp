@@ -29,4 +29,11 @@ constexpr std::int32_t featureOfEdges(std::int32_t edge1, std::int32_t edge2) { 
 Separation findManifold(const PlacedShape& one, const PlacedShape& two, double reach, const DecidingFeature& last,
 						std::vector<ManifoldPoint>& points);
 
+/// The same along a given direction, which need not be the best one.
+///
+/// @param normal  unit, from the first to the second
+/// @param beside  corners that miss the other body by no more than this across the normal are taken as if its face reached out to them [m]
+Separation findManifoldAlong(const PlacedShape& one, const PlacedShape& two, const Vector3& normal, double reach, double beside,
+							 std::vector<ManifoldPoint>& points);
+
 } // namespace contactdynamics

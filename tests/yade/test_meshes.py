@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from yade import O, Quaternion, Vector3, geom, utils, ymport
 
+from blocks import block
 from distances import nearest_on_triangle
 from scenes import G, box, cd, contacts, equip, floor, grain, material, state, steps, vec
 from test_detection import facet
@@ -113,11 +114,13 @@ def test_fast_balls_do_not_enter_a_random_terrain(height: float, radius: float) 
 
 
 def tiles(kind: str) -> None:
-    """A floor at z = 0 from x = -20 to 20: one box, boxes side by side, boxes and facets in turn, boxes on a wall, or facets with shifted rows."""
+    """A floor at z = 0 from x = -20 to 20: one box, boxes or polyhedra side by side, boxes and facets or polyhedra in turn, boxes on a wall, or facets with shifted rows."""
     if kind == "one box":
         floor(20)
     for k in range(-20, 20):
-        if kind == "boxes" or (kind == "boxes and facets" and k % 2):
+        if kind == "polyhedra" or (kind == "boxes and polyhedra" and k % 2 == 0):
+            block((k + 0.5, 0, -1), (0.5, 5, 1), fixed=True)
+        if kind == "boxes" or (kind.startswith("boxes and") and k % 2):
             box((k + 0.5, 0, -1), (0.5, 5, 1))
         if kind == "boxes and facets" and k % 2 == 0:
             facet(((k, -5, 0), (k + 1, -5, 0), (k + 1, 5, 0)))
@@ -134,7 +137,7 @@ def tiles(kind: str) -> None:
 
 
 @pytest.mark.parametrize("stride", [0.005, 0.3])
-@pytest.mark.parametrize("kind", ["boxes", "boxes and facets", "box on a wall", "corners on edges"])
+@pytest.mark.parametrize("kind", ["boxes", "boxes and facets", "polyhedra", "boxes and polyhedra", "box on a wall", "corners on edges"])
 def test_tiles_are_one_floor(kind: str, stride: float) -> None:
     """A ball that slides and then rolls over the joints keeps, but for roundings, the motion that it has on one box."""
     h, number, tracks = 5e-3, 60 if stride > 0.1 else 600, {}
