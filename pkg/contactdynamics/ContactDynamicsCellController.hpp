@@ -51,7 +51,7 @@ public:
 	);
 	// clang-format on
 private:
-	auto attributes() { return std::tie(stress, velGrad, stressMask, inertia, maxStrainRate); }
+	std::tuple<Matrix3r&, Matrix3r&, int&, Real&, Real&> attributes() { return {stress, velGrad, stressMask, inertia, maxStrainRate}; }
 	std::tuple<Matrix3r, Matrix3r, int, Real, Real> admitted{attributes()};
 };
 REGISTER_SERIALIZABLE(ContactDynamicsCellController);

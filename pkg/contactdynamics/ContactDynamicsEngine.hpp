@@ -94,7 +94,10 @@ public:
 	// clang-format on
 private:
 	void createStep();
-	auto attributes() { return std::tie(tolerance, maxIterations, contactLaw, onNonConvergence, acceleration, repairRate, allowedOverlap); }
+	std::tuple<Real&, int&, string&, string&, string&, Real&, Real&> attributes()
+	{
+		return {tolerance, maxIterations, contactLaw, onNonConvergence, acceleration, repairRate, allowedOverlap};
+	}
 	std::tuple<Real, int, string, string, string, Real, Real> admitted{attributes()};
 };
 REGISTER_SERIALIZABLE(ContactDynamicsEngine);

@@ -35,10 +35,10 @@ public:
 	REGISTER_CLASS_INDEX(ContactDynamicsMat, FrictMat);
 
 private:
-	auto attributes()
+	std::tuple<Real&, Real&, Real&, Real&, Real&, Real&, Real&, Real&, Real&, Real&, Real&> attributes()
 	{
-		return std::tie(normalRestitution, tangentialRestitution, restitutionVelocity, staticFrictionAngle, cohesionForce, cohesionStress, kn, ks,
-						normalDamping, rollingFriction, twistingFriction);
+		return {normalRestitution, tangentialRestitution, restitutionVelocity, staticFrictionAngle, cohesionForce, cohesionStress, kn, ks,
+				normalDamping,	   rollingFriction,		  twistingFriction};
 	}
 	std::tuple<Real, Real, Real, Real, Real, Real, Real, Real, Real, Real, Real> admitted{attributes()};
 };

@@ -31,7 +31,10 @@ public:
 	);
 	// clang-format on
 private:
-	auto attributes() { return std::tie(maxDisplacement, maxRotation, proximityDistance, minTimeStep, maxTimeStep, growth); }
+	std::tuple<Real&, Real&, Real&, Real&, Real&, Real&> attributes()
+	{
+		return {maxDisplacement, maxRotation, proximityDistance, minTimeStep, maxTimeStep, growth};
+	}
 	std::tuple<Real, Real, Real, Real, Real, Real> admitted{attributes()};
 };
 REGISTER_SERIALIZABLE(ContactDynamicsTimeStepper);

@@ -43,7 +43,10 @@ public:
 	);
 	// clang-format on
 private:
-	auto attributes() { return std::tie(walls, stress, strainRate, stressMask, wallMass, maxStrainRate); }
+	std::tuple<vector<int>&, Vector3r&, Vector3r&, int&, Real&, Real&> attributes()
+	{
+		return {walls, stress, strainRate, stressMask, wallMass, maxStrainRate};
+	}
 	std::tuple<vector<int>, Vector3r, Vector3r, int, Real, Real> admitted{attributes()};
 };
 REGISTER_SERIALIZABLE(ContactDynamicsTriaxialController);
