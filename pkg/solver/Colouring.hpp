@@ -28,6 +28,13 @@ public:
 		return __builtin_ctzll(bit);
 	}
 
+	/// As if the contact had never been, and all others of its bodies.
+	void forget(std::int32_t body1, std::int32_t body2)
+	{
+		if (body1 >= 0) used[body1] = 0;
+		if (body2 >= 0) used[body2] = 0;
+	}
+
 private:
 	std::vector<std::uint64_t> used; // colours at each body
 };
