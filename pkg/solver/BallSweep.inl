@@ -87,6 +87,7 @@ inline void scatter(BodyState* bodies, const std::int32_t* index, const Side& si
 	Wide v[4]{side.v.x, side.v.y, side.v.z, side.inverseMass}, w[4]{side.w.x, side.w.y, side.w.z, side.inverseInertia};
 	transpose(v[0], v[1], v[2], v[3]);
 	transpose(w[0], w[1], w[2], w[3]);
+#pragma GCC unroll 4
 	for (int i = 0; i < 4; ++i) {
 		if (index[i] < 0) continue;
 		store(bodies[index[i]].velocity, v[i]);
@@ -96,6 +97,7 @@ inline void scatter(BodyState* bodies, const std::int32_t* index, const Side& si
 
 inline void prefetchBodies(BodyState* bodies, const BallPack& pack)
 {
+#pragma GCC unroll 4
 	for (int i = 0; i < 4; ++i) {
 		__builtin_prefetch(at(bodies, pack.body1[i]), 1);
 		__builtin_prefetch(at(bodies, pack.body2[i]), 1);

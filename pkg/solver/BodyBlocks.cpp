@@ -75,6 +75,7 @@ void BodyBlocks::grow(const std::vector<std::uint8_t>& movable, std::size_t bodi
 		size.push_back(std::int32_t(taken - start));
 		if (first >= 0) first = seed();
 	}
+	if (size.empty()) size.push_back(0); // contacts between bodies that cannot move have to go somewhere
 }
 
 /// All blocks that meet at a body, its own and those of its neighbours, are in conflict.
@@ -82,7 +83,6 @@ void BodyBlocks::findConflicts()
 {
 	const std::size_t words = (size.size() + 63) / 64;
 	conflicts.assign(size.size() * words, 0);
-	std::vector<std::int32_t>& here = members;
 	for (const std::int32_t i : grown) {
 		here.assign(1, block[i]);
 		for (std::int32_t k = firstNeighbour[i]; k < firstNeighbour[i + 1]; ++k) {
@@ -101,21 +101,20 @@ void BodyBlocks::paint()
 	const std::size_t words = (size.size() + 63) / 64;
 	colour.assign(size.size(), -1);
 	members.clear();
+	metBy.clear();
 	for (std::size_t b = 0; b < size.size(); ++b) {
-		std::vector<std::int32_t>& taken = number; // last block that has met a colour
-		taken.resize(size.size());
-		if (b == 0) std::fill(taken.begin(), taken.end(), -1);
 		for (std::size_t w = 0; w < words; ++w)
 			for (std::uint64_t bits = conflicts[b * words + w]; bits; bits &= bits - 1) {
 				const std::size_t other = w * 64 + std::size_t(__builtin_ctzll(bits));
-				if (colour[other] >= 0) taken[colour[other]] = std::int32_t(b);
+				if (colour[other] >= 0) metBy[colour[other]] = std::int32_t(b);
 			}
 		std::int32_t best = -1;
 		for (std::size_t k = 0; k < members.size(); ++k)
-			if (taken[k] != std::int32_t(b) && (best < 0 || members[k] < members[best])) best = std::int32_t(k);
+			if (metBy[k] != std::int32_t(b) && (best < 0 || members[k] < members[best])) best = std::int32_t(k);
 		if (best < 0) {
 			best = std::int32_t(members.size());
 			members.push_back(0);
+			metBy.push_back(-1);
 		}
 		colour[b] = best;
 		++members[best];

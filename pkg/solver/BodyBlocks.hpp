@@ -21,8 +21,8 @@ public:
 	/// Which block visits a contact; contacts between bodies that cannot move go to the first.
 	std::int32_t of(const Contact& c) const { return std::max(0, std::max(block[c.body1], block[c.body2])); }
 
-	std::vector<std::int32_t> block;	  ///< of each body, -1 for one that cannot move
-	std::vector<std::int32_t> seat;		  ///< of each body: place in an order in which those of a block are together; bodies that cannot move come last
+	std::vector<std::int32_t> block; ///< of each body, -1 for one that cannot move
+	std::vector<std::int32_t> seat;	 ///< of each body: place in an order in which those of a block are together; bodies that cannot move come last
 	std::vector<std::int32_t> firstSeat;  ///< of each block, one past the last block: seats of its bodies
 	std::vector<std::int32_t> firstBlock; ///< of each colour, one past the last colour
 
@@ -32,7 +32,8 @@ private:
 	std::vector<std::int32_t> seeds, reached;			  // queue of neighbours of closed blocks; block that has reached a body last
 	std::vector<std::int32_t> size, colour, number;		  // of each block, in the order of growth: bodies, colour, number
 	std::vector<std::uint64_t> conflicts;				  // matrix of bits
-	std::vector<std::int32_t> members;					  // blocks of each colour
+	std::vector<std::int32_t> here;						  // blocks that meet at a body
+	std::vector<std::int32_t> members, metBy;			  // of each colour: its blocks; the last block that was found in conflict with it
 
 	void findNeighbours(const GrainProblem& problem, const std::vector<std::uint8_t>& movable);
 	void grow(const std::vector<std::uint8_t>& movable, std::size_t bodiesPerBlock);

@@ -7,43 +7,25 @@ namespace contactdynamics {
 namespace {
 
 constexpr std::size_t packsPerChunk = 32, generalsPerChunk = 32;
-// By block from so many candidates on: then a sweep no longer fits the caches. Three arrays of a block's bodies and the packs that stream through fit
-// half a megabyte.
-const std::size_t blockwiseFrom = getenv("BW") ? atoi(getenv("BW")) : 40000, bodiesPerBlock = getenv("BB") ? atoi(getenv("BB")) : 1000;
-
-constexpr int kinds = 2 * (Colouring::overflow + 1); // colours, balls and general contacts of each
-std::size_t lanesOf(int kind) { return kind / 2 == Colouring::overflow ? 1 : 4; } // contacts of the overflow colour do share bodies
-
-BallPack emptyPack(std::size_t bodyAtRest)
-{
-	BallPack empty{};
-	for (int lane = 0; lane < 4; ++lane) {
-		empty.id[lane] = -1;
-		empty.body1[lane] = empty.body2[lane] = ~std::int32_t(bodyAtRest);
-	}
-	return empty;
-}
 
 } // namespace
-
-void GrainOperator::takeSeats()
-{
-	blockwise = problem->contacts.size() >= blockwiseFrom;
-	if (blockwise) {
-		// No more than 4096 blocks, whose conflicts are a matrix.
-		blocks.build(*problem, movable, std::max(bodiesPerBlock, movable.size() / 4096));
-		blockwise = blocks.count() > 0;
-	}
-	seat.resize(movable.size());
-	for (std::size_t i = 0; i < seat.size(); ++i) seat[i] = blockwise ? blocks.seat[i] : std::int32_t(i);
-}
 
 void GrainOperator::putSleeper(std::int32_t id)
 {
 	const Contact& c = problem->contacts[id];
 	impulses[id].setZero();
-	sleepers.push_back({c.normal, c.ball ? c.gapVelocity + c.imageVelocity.dot(c.normal) : c.gapVelocity, c.normal.dot(c.arm1 - c.arm2), seat[c.body1],
-						seat[c.body2], id, !c.ball});
+	sleepers.push_back({c.normal, c.ball ? c.gapVelocity + c.imageVelocity.dot(c.normal) : c.gapVelocity, c.normal.dot(c.arm1 - c.arm2),
+						seat[c.body1], seat[c.body2], id, !c.ball});
+}
+
+BallPack GrainOperator::emptyPack() const
+{
+	BallPack empty{};
+	for (int lane = 0; lane < 4; ++lane) {
+		empty.id[lane] = -1;
+		empty.body1[lane] = empty.body2[lane] = ~std::int32_t(problem->bodies.size());
+	}
+	return empty;
 }
 
 void GrainOperator::putBall(BallPack& pack, int lane, std::int32_t id) const
@@ -106,6 +88,7 @@ void GrainOperator::layOutByColour(const std::vector<std::int32_t>& ids)
 {
 	const auto& contacts = problem->contacts;
 	colouring.reset(problem->bodies.size());
+	constexpr int kinds = 2 * Colouring::colours; // balls and general contacts of each colour
 	std::size_t count[kinds + 1] = {};
 	colourOf.resize(ids.size());
 	for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -120,11 +103,11 @@ void GrainOperator::layOutByColour(const std::vector<std::int32_t>& ids)
 		std::copy(count, count + kinds, next);
 		for (std::size_t i = 0; i < ids.size(); ++i) order[next[colourOf[i]]++] = ids[i];
 	}
-	const BallPack empty = emptyPack(problem->bodies.size());
+	const BallPack empty = emptyPack();
 	for (int colour = 0; colour <= Colouring::overflow; ++colour) {
 		const std::size_t balls = count[2 * colour], first = count[2 * colour + 1], last = count[2 * colour + 2];
 		if (balls == last) continue;
-		const std::size_t lanes = lanesOf(2 * colour);
+		const std::size_t lanes = Colouring::lanes(colour);
 		const std::size_t firstPack = packs.size(), firstGeneral = generals.size(), firstChunk = chunks.size();
 		packs.resize(firstPack + (first - balls + lanes - 1) / lanes, empty);
 		inRuns(first - balls, [&](std::size_t i) { putBall(packs[firstPack + i / lanes], int(i % lanes), order[balls + i]); });
@@ -140,97 +123,6 @@ void GrainOperator::layOutByColour(const std::vector<std::int32_t>& ids)
 				chunks.push_back({0, 0, firstGeneral + k, std::min(generalsPerChunk, generalCount - k), 0, 0});
 		}
 		groups.push_back({firstChunk, chunks.size()});
-	}
-}
-
-/// Appends contacts block by block, each block as one chunk; the first time with the blocks' bodies.
-void GrainOperator::layOutByBlock(const std::vector<std::int32_t>& ids)
-{
-	const bool isFirst = groups.empty();
-	if (isFirst) colouring.reset(problem->bodies.size());
-	colourOf.resize(ids.size());
-	byBlock.resize(ids.size());
-	order.resize(ids.size());
-	inRuns(ids.size(), [&](std::size_t i) { colourOf[i] = blocks.of(problem->contacts[ids[i]]); });
-	firstOfBlock.assign(blocks.count() + 2, 0);
-	for (const std::int32_t block : colourOf) ++firstOfBlock[block + 2];
-	for (std::size_t b = 2; b < firstOfBlock.size(); ++b) firstOfBlock[b] += firstOfBlock[b - 1];
-	for (std::size_t i = 0; i < ids.size(); ++i) byBlock[firstOfBlock[colourOf[i] + 1]++] = ids[i];
-
-	blockChunks.resize(blocks.count());
-	for (std::size_t k = 0; k + 1 < blocks.firstBlock.size(); ++k) {
-		const std::size_t first = blocks.firstBlock[k];
-		share(blocks.firstBlock[k + 1] - first, [&](std::size_t i) { colourBlock(first + i); });
-	}
-	std::size_t packCount = packs.size(), generalCount = generals.size();
-	for (std::size_t k = 0; k + 1 < blocks.firstBlock.size(); ++k) {
-		const std::size_t firstChunk = chunks.size();
-		for (std::int32_t b = blocks.firstBlock[k]; b < blocks.firstBlock[k + 1]; ++b) {
-			Chunk& chunk = blockChunks[b];
-			chunk.firstPack = packCount;
-			chunk.firstGeneral = generalCount;
-			chunk.firstSeat = isFirst ? blocks.firstSeat[b] : 0;
-			chunk.lastSeat = isFirst ? blocks.firstSeat[b + 1] : 0;
-			packCount += chunk.packs;
-			generalCount += chunk.generals;
-			if (isFirst || chunk.packs + chunk.generals > 0) chunks.push_back(chunk);
-		}
-		if (chunks.size() > firstChunk) groups.push_back({firstChunk, chunks.size()});
-	}
-	packs.resize(packCount, emptyPack(problem->bodies.size()));
-	generals.resize(generalCount);
-	share(blocks.count(), [&](std::size_t b) { fillBlock(b); });
-}
-
-/// Sorts the contacts of a block by colour and counts its packs.
-void GrainOperator::colourBlock(std::size_t block)
-{
-	const std::size_t first = firstOfBlock[block], last = firstOfBlock[block + 1];
-	const auto& contacts = problem->contacts;
-	std::size_t next[kinds + 1] = {};
-	for (std::size_t i = first; i < last; ++i) {
-		const Contact& c = contacts[byBlock[i]];
-		colourOf[i] = 2 * colouring.assign(indexOf(c.body1), indexOf(c.body2)) + (isBall(c) ? 0 : 1);
-		++next[colourOf[i] + 1];
-	}
-	Chunk& chunk = blockChunks[block];
-	chunk.packs = chunk.generals = 0;
-	for (int kind = 0; kind < kinds; ++kind) {
-		if (kind % 2 == 0)
-			chunk.packs += (next[kind + 1] + lanesOf(kind) - 1) / lanesOf(kind);
-		else
-			chunk.generals += next[kind + 1];
-	}
-	next[0] = first;
-	for (int kind = 0; kind < kinds; ++kind) next[kind + 1] += next[kind];
-	for (std::size_t i = first; i < last; ++i) {
-		const Contact& c = contacts[byBlock[i]];
-		colouring.forget(indexOf(c.body1), indexOf(c.body2));
-		order[next[colourOf[i]]++] = byBlock[i];
-	}
-	// Where each kind ends is known now: colours in the new order.
-	std::size_t i = first;
-	for (int kind = 0; kind < kinds; ++kind)
-		for (; i < next[kind]; ++i) colourOf[i] = kind;
-}
-
-void GrainOperator::fillBlock(std::size_t block)
-{
-	const Chunk& chunk = blockChunks[block];
-	std::size_t pack = chunk.firstPack, general = chunk.firstGeneral, lane = 0;
-	int before = -1;
-	for (std::size_t i = firstOfBlock[block]; i < std::size_t(firstOfBlock[block + 1]); ++i) {
-		const int kind = colourOf[i];
-		if (kind % 2 == 1) {
-			putGeneral(generals[general++], order[i]);
-			continue;
-		}
-		if (before >= 0 && (kind != before || lane == lanesOf(kind))) {
-			++pack;
-			lane = 0;
-		}
-		putBall(packs[pack], int(lane++), order[i]);
-		before = kind;
 	}
 }
 

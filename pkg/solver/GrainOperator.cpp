@@ -21,9 +21,7 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 	movable.resize(bodies.size());
 	crew = &hands;
 	together = isWorthThreads(contacts.size());
-	inRuns(bodies.size(), [&](std::size_t i) {
-		movable[i] = !bodies[i].inverseMass.isZero(0) || !bodies[i].inverseInertia.isZero(0);
-	});
+	inRuns(bodies.size(), [&](std::size_t i) { movable[i] = !bodies[i].inverseMass.isZero(0) || !bodies[i].inverseInertia.isZero(0); });
 	takeSeats();
 	inRuns(bodies.size(), [&](std::size_t i) {
 		BodyState& its = stateOf(std::int32_t(i));
@@ -108,7 +106,7 @@ void GrainOperator::extrapolate(Extrapolation by, std::size_t first, std::size_t
 
 void GrainOperator::visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by, FieldPass* field)
 {
-	if (accelerated && !getenv("NOEX")) extrapolate(by, chunk.firstSeat, chunk.lastSeat);
+	if (accelerated) extrapolate(by, chunk.firstSeat, chunk.lastSeat);
 	norms = chunk.packs ? ballSweep(state.data(), packs.data() + chunk.firstPack, chunk.packs, by, field) : SweepNorms{};
 	for (std::size_t k = chunk.firstGeneral; k < chunk.firstGeneral + chunk.generals; ++k) {
 		const SweepNorms one = contactdynamics::visit(generals[k], state.data(), by, field);
@@ -122,7 +120,7 @@ SweepNorms GrainOperator::sweep(Extrapolation by)
 	chunkNorms.resize(chunks.size());
 	if (hasField()) startFieldPass(by);
 	const std::size_t bodies = problem->bodies.size();
-	if (accelerated && !blockwise) 
+	if (accelerated && !blockwise)
 		share((bodies + perRun - 1) / perRun, [&](std::size_t k) { extrapolate(by, k * perRun, std::min(bodies, (k + 1) * perRun)); });
 	for (const Group& group : groups)
 		share(group.lastChunk - group.firstChunk, [&](std::size_t k) {

@@ -25,7 +25,8 @@ public:
 	/// @param crew  does the work from a few thousand contacts on; must outlive the use of the operator
 	void start(GrainProblem& problem, bool accelerated, Crew& crew);
 	static bool isWorthThreads(std::size_t contacts) { return contacts >= 3000; } ///< below, handing out the colours costs more than it brings
-	static constexpr int firstCheck = 0; ///< a certificate costs six sweeps: wait until the increments promise convergence
+	static constexpr std::size_t blockwiseFrom = 40000; ///< contacts from which on a sweep goes block by block: it no longer fits the caches
+	static constexpr int firstCheck = 0;				///< a certificate costs six sweeps: wait until the increments promise convergence
 	static constexpr bool startsPlainly = true;
 	bool anyAwake() const { return awake > 0; }
 	std::size_t awakeContacts() const { return awake; } ///< those that a sweep visits
@@ -136,6 +137,7 @@ private:
 	void layOutByBlock(const std::vector<std::int32_t>& ids);
 	void colourBlock(std::size_t block);
 	void fillBlock(std::size_t block);
+	BallPack emptyPack() const;
 	void putBall(BallPack& pack, int lane, std::int32_t id) const;
 	void putGeneral(GeneralContact& g, std::int32_t id) const;
 	void putSleeper(std::int32_t id);
