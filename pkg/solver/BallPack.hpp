@@ -58,7 +58,16 @@ using BallSweep = SweepNorms (*)(BodyState* bodies, BallPack* packs, std::size_t
 SweepNorms ballSweepBaseline(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field);
 SweepNorms ballSweepAvx2(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field);
 
-/// The widest version this machine can run. All versions give the same bits.
+/// Moves bodies to the extrapolated point. Of `start` and `direction` the mobilities are those of the bodies and zero, so that they stay what they
+/// are.
+/// @param now  velocities after the last sweep;  @param start  those before it;  @param direction  search direction; all three are updated
+using BodyAdvance = void (*)(BodyState* now, BodyState* start, BodyState* direction, std::size_t count, Extrapolation extrapolation);
+
+void bodyAdvanceBaseline(BodyState* now, BodyState* start, BodyState* direction, std::size_t count, Extrapolation extrapolation);
+void bodyAdvanceAvx2(BodyState* now, BodyState* start, BodyState* direction, std::size_t count, Extrapolation extrapolation);
+
+/// The widest versions this machine can run. All versions give the same bits.
 BallSweep selectBallSweep();
+BodyAdvance selectBodyAdvance();
 
 } // namespace contactdynamics

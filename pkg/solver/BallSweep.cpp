@@ -11,4 +11,12 @@ BallSweep selectBallSweep()
 	return ballSweepBaseline;
 }
 
+BodyAdvance selectBodyAdvance()
+{
+#ifdef CONTACTDYNAMICS_HAS_AVX2_SWEEP
+	if (__builtin_cpu_supports("avx2")) return bodyAdvanceAvx2;
+#endif
+	return bodyAdvanceBaseline;
+}
+
 } // namespace contactdynamics

@@ -87,6 +87,7 @@ inline void scatter(BodyState* bodies, const std::int32_t* index, const Side& si
 	Wide v[4]{side.v.x, side.v.y, side.v.z, side.inverseMass}, w[4]{side.w.x, side.w.y, side.w.z, side.inverseInertia};
 	transpose(v[0], v[1], v[2], v[3]);
 	transpose(w[0], w[1], w[2], w[3]);
+#pragma GCC unroll 4
 	for (int i = 0; i < 4; ++i) {
 		if (index[i] < 0) continue;
 		store(bodies[index[i]].velocity, v[i]);
@@ -96,6 +97,7 @@ inline void scatter(BodyState* bodies, const std::int32_t* index, const Side& si
 
 inline void prefetchBodies(BodyState* bodies, const BallPack& pack)
 {
+#pragma GCC unroll 4
 	for (int i = 0; i < 4; ++i) {
 		__builtin_prefetch(at(bodies, pack.body1[i]), 1);
 		__builtin_prefetch(at(bodies, pack.body2[i]), 1);
@@ -106,19 +108,23 @@ inline double sum(Wide a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
 } // namespace
 
-SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field)
+template <bool hasField>
+static inline SweepNorms sweepOf(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field)
 {
 	const Wide zero = all(0), relax = all(extrapolation.relax), momentum = all(extrapolation.momentum);
 	Wide increment2 = zero, impulse2 = zero, moment[9]{};
+	constexpr std::size_t farAhead = 12;
 	constexpr std::size_t ahead = 6; // packs: their bodies lie anywhere in memory, and only we know where
 	for (BallPack* pack = packs; pack != packs + count; ++pack) {
 		if (pack + ahead < packs + count) prefetchBodies(bodies, pack[ahead]);
+		if (pack + farAhead < packs + count)
+			for (std::size_t i = 0; i < sizeof(BallPack); i += 64) __builtin_prefetch(reinterpret_cast<const char*>(pack + farAhead) + i, 1);
 		Side one = gather(bodies, pack->body1), two = gather(bodies, pack->body2);
 		const Vector n = load(pack->normal);
 		const Wide arm1 = load(pack->arm1), arm2 = load(pack->arm2);
 		// v + w x (arm n) on both sides
 		Vector u = (two.v - one.v) + cross(arm2 * two.w - arm1 * one.w, n);
-		if (field) u = u + (arm1 - arm2) * (field->gradient * n);
+		if (hasField) u = u + (arm1 - arm2) * (field->gradient * n);
 		const Wide un = dot(u, n);
 		const Vector ut = u - un * n;
 
@@ -140,7 +146,7 @@ SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, std::size_t count, Ext
 
 		const Wide Wn = one.inverseMass + two.inverseMass;
 		const Wide Wt = Wn + arm1 * arm1 * one.inverseInertia + arm2 * arm2 * two.inverseInertia;
-		if (field) addMoment(moment, (arm1 - arm2) * dr, n);
+		if (hasField) addMoment(moment, (arm1 - arm2) * dr, n);
 		const Wide dn = rn - xn;
 		increment2 += Wn * dn * dn + Wt * (dot(dr, dr) - dn * dn);
 		impulse2 += Wn * rn * rn + Wt * dot(rt, rt);
@@ -153,9 +159,33 @@ SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, std::size_t count, Ext
 		scatter(bodies, pack->body1, one);
 		scatter(bodies, pack->body2, two);
 	}
-	if (field)
+	if (hasField)
 		for (int i = 0; i < 9; ++i) field->moment[i] += sum(moment[i]);
 	return {sum(increment2), sum(impulse2)};
+}
+
+SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field)
+{
+	return field ? sweepOf<true>(bodies, packs, count, extrapolation, field) : sweepOf<false>(bodies, packs, count, extrapolation, field);
+}
+
+void BODY_ADVANCE(BodyState* now, BodyState* start, BodyState* direction, std::size_t count, Extrapolation extrapolation)
+{
+	const Wide relax = all(extrapolation.relax), momentum = all(extrapolation.momentum);
+	const auto advance = [&](double* now, double* start, double* direction) {
+		const Wide at = load(now), last = at - load(start), step = relax * last + momentum * load(direction), next = at + step;
+		store(direction, last + step);
+		store(start, next);
+		store(now, next);
+	};
+	constexpr std::size_t ahead = 8; // bodies
+	for (std::size_t i = 0; i < count; ++i) {
+		__builtin_prefetch(now + i + ahead, 1);
+		__builtin_prefetch(start + i + ahead, 1);
+		__builtin_prefetch(direction + i + ahead, 1);
+		advance(now[i].velocity, start[i].velocity, direction[i].velocity);
+		advance(now[i].angularVelocity, start[i].angularVelocity, direction[i].angularVelocity);
+	}
 }
 
 } // namespace contactdynamics

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace contactdynamics {
 class Colouring {
 public:
 	static constexpr int overflow = 64; ///< colour of the contacts of a body that has more than 64: these are visited one by one
+	static constexpr int colours = overflow + 1;
+	static constexpr std::size_t lanes(int colour) { return colour == overflow ? 1 : 4; } ///< balls of a colour that one pack may hold
 
 	/// Forgets everything; no memory is given back.
 	void reset(std::size_t bodies) { used.assign(bodies, 0); }
@@ -26,6 +29,13 @@ public:
 		if (body1 >= 0) used[body1] |= bit;
 		if (body2 >= 0) used[body2] |= bit;
 		return __builtin_ctzll(bit);
+	}
+
+	/// As if the contact had never been, and all others of its bodies.
+	void forget(std::int32_t body1, std::int32_t body2)
+	{
+		if (body1 >= 0) used[body1] = 0;
+		if (body2 >= 0) used[body2] = 0;
 	}
 
 private:

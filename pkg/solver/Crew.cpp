@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Crew.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <system_error>
 
 namespace contactdynamics {
@@ -13,6 +15,8 @@ void pauseBriefly()
 	__builtin_ia32_pause();
 #endif
 }
+
+double secondsNow() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 } // namespace
 
@@ -73,18 +77,38 @@ void Crew::stage(std::size_t firstJob, std::size_t count)
 	board.store(std::uint64_t(count) << 32);
 	ring();
 	while (takeJob(End::front)) {}
-	constexpr int patience = 10000; // pauses, some tenths of a millisecond
-	for (int spins = 0; done.load(std::memory_order_acquire) != count; ++spins) {
-		if (spins < patience) {
+	constexpr int patience = 20000; // pauses, some tenths of a millisecond: longer than the longest job
+	int spins = 0;
+	for (; done.load(std::memory_order_acquire) != count; ++spins) {
+		if (spins < patience)
 			pauseBriefly();
-			continue;
-		}
-		if (spins == patience) {
-			alone = penalty;
-			if (penalty < 1 << 20) penalty *= 2;
-		}
-		std::this_thread::yield();
+		else
+			std::this_thread::yield();
 	}
+	if (spins > patience)
+		takeOffence();
+	else if (penalty > leastPenalty)
+		forgive();
+}
+
+bool Crew::worksAlone()
+{
+	if (aloneUntil > 0 && secondsNow() >= aloneUntil) aloneUntil = 0;
+	return aloneUntil > 0;
+}
+
+void Crew::takeOffence()
+{
+	togetherSince = aloneUntil = secondsNow() + penalty;
+	penalty = std::min(2 * penalty, longestPenalty);
+}
+
+void Crew::forgive()
+{
+	const double now = secondsNow();
+	if (now < togetherSince + 4 * penalty) return;
+	penalty = std::max(0.5 * penalty, leastPenalty);
+	togetherSince = now;
 }
 
 /// Stages follow each other within microseconds: a mate spins for some, then sleeps. It does not yield: recent kernels count that against the

@@ -34,14 +34,14 @@ public:
 	/// Calls job(0) ... job(count - 1), each once, concurrently; returns when all are done. Jobs must not throw.
 	template <class Job> void run(std::size_t count, const Job& job)
 	{
-		if (mates.empty() || count < 2 || alone > 0) {
-			if (alone > 0) --alone;
+		if (mates.empty() || count < 2 || worksAlone()) {
 			for (std::size_t i = 0; i < count; ++i) job(i);
 			return;
 		}
 		call = [](const void* context, std::size_t i) { (*static_cast<const Job*>(context))(i); };
 		context = &job;
 		for (std::size_t first = 0; first < count; first += maxJobs) stage(first, count - first < maxJobs ? count - first : maxJobs);
+		context = nullptr;
 	}
 
 private:
@@ -53,8 +53,10 @@ private:
 	void (*call)(const void*, std::size_t) = nullptr;
 	const void* context = nullptr;
 	std::size_t first = 0;
-	// A mate that the system took off its core in mid-job holds everybody up; the leader then works alone for a while, longer each time.
-	int alone = 0, penalty = 64;
+	// A mate that the system took off its core in mid-job holds everybody up; the leader then works alone for a while, longer each time, and
+	// shorter again after a while together without that. [s]
+	static constexpr double leastPenalty = 0.002, longestPenalty = 1;
+	double aloneUntil = 0, penalty = leastPenalty, togetherSince = 0;
 	alignas(64) std::atomic<std::uint64_t> board{0}; // open jobs: one past the last (upper half) and the first (lower half)
 	alignas(64) std::atomic<std::size_t> done{0};
 	std::atomic<bool> dismissed{false}, resting{true};
@@ -64,6 +66,9 @@ private:
 
 	bool jobOpen() const;
 	void ring();
+	bool worksAlone();
+	void takeOffence();
+	void forgive();
 
 	/// The leader takes jobs from the front, mates from the back: so each core meets the same bodies again in the next colour.
 	enum class End { front, back };

@@ -29,7 +29,7 @@ Matrix3 localDelassus(const Body& body1, const Body& body2, const Contact& conta
 	return 0.5 * (W + W.transpose());
 }
 
-SweepNorms visit(GeneralContact& c, BodyState* bodies, const Body* mobility, Extrapolation extrapolation, FieldPass* field)
+SweepNorms visit(GeneralContact& c, BodyState* bodies, Extrapolation extrapolation, FieldPass* field)
 {
 	using Map = Eigen::Map<Vector3>;
 	using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
@@ -49,12 +49,12 @@ SweepNorms visit(GeneralContact& c, BodyState* bodies, const Body* mobility, Ext
 	const Vector3 push = c.frame.transpose() * dr;
 	if (field) Eigen::Map<Matrix>(field->moment) += push * (c.arm1 - c.arm2).transpose();
 	if (c.body1 >= 0) {
-		v1 -= mobility[i1].inverseMass.cwiseProduct(push);
-		w1 -= mobility[i1].inverseInertia * c.arm1.cross(push);
+		v1 -= c.mobility1->inverseMass.cwiseProduct(push);
+		w1 -= c.mobility1->inverseInertia * c.arm1.cross(push);
 	}
 	if (c.body2 >= 0) {
-		v2 += mobility[i2].inverseMass.cwiseProduct(push);
-		w2 += mobility[i2].inverseInertia * c.arm2.cross(push);
+		v2 += c.mobility2->inverseMass.cwiseProduct(push);
+		w2 += c.mobility2->inverseInertia * c.arm2.cross(push);
 	}
 	return {dr.dot(c.W * dr), r.dot(c.W * r)};
 }

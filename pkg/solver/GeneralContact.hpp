@@ -10,13 +10,14 @@ namespace contactdynamics {
 /// A contact with any W: non-spherical bodies, clumps, blocked degrees of freedom. Impulses and velocities in the local frame, normal first.
 struct GeneralContact {
 	std::int32_t id;		   ///< index of the contact in the problem
-	std::int32_t body1, body2; ///< complemented when the body cannot move, as in BallPack
+	std::int32_t body1, body2; ///< places of the bodies in the state of the sweep, complemented as in BallPack when the body cannot move
 	Matrix3 frame;			   ///< rows n, t1, t2
 	Vector3 arm1, arm2;		   ///< [m]
 	Vector3 offset;			   ///< image velocity in the frame, plus the gap velocity on the normal [m/s]
 	Vector3 compliance;		   ///< on the diagonal of W: what the bodies' velocities do not know [1/kg]
 	Matrix3 W;				   ///< local Delassus operator, compliance included [1/kg]
 	double friction;
+	const Body *mobility1, *mobility2; ///< inverse masses and inertias of the bodies
 	OneContact local;
 	Vector3 impulse, increment, direction; ///< as in BallPack
 };
@@ -28,7 +29,7 @@ Matrix3 contactFrame(const Vector3& normal);
 Matrix3 localDelassus(const Body& body1, const Body& body2, const Contact& contact, const Matrix3& frame);
 
 /// One visit, as BallSweep does it for balls.
-/// @param bodies  state of the sweep;  @param mobility  inverse masses and inertias of the same bodies;  @param field  null: no mean field
-SweepNorms visit(GeneralContact& contact, BodyState* bodies, const Body* mobility, Extrapolation extrapolation, FieldPass* field);
+/// @param bodies  state of the sweep;  @param field  null: no mean field
+SweepNorms visit(GeneralContact& contact, BodyState* bodies, Extrapolation extrapolation, FieldPass* field);
 
 } // namespace contactdynamics

@@ -46,19 +46,19 @@ void GrainOperator::addImpulse(const Contact& c, const Vector3& impulse)
 {
 	const auto& bodies = problem->bodies;
 	if (movable[c.body1]) {
-		velocity(state[c.body1]) -= bodies[c.body1].inverseMass.cwiseProduct(impulse);
-		angularVelocity(state[c.body1]) -= bodies[c.body1].inverseInertia * c.arm1.cross(impulse);
+		velocity(stateOf(c.body1)) -= bodies[c.body1].inverseMass.cwiseProduct(impulse);
+		angularVelocity(stateOf(c.body1)) -= bodies[c.body1].inverseInertia * c.arm1.cross(impulse);
 	}
 	if (movable[c.body2]) {
-		velocity(state[c.body2]) += bodies[c.body2].inverseMass.cwiseProduct(impulse);
-		angularVelocity(state[c.body2]) += bodies[c.body2].inverseInertia * c.arm2.cross(impulse);
+		velocity(stateOf(c.body2)) += bodies[c.body2].inverseMass.cwiseProduct(impulse);
+		angularVelocity(stateOf(c.body2)) += bodies[c.body2].inverseInertia * c.arm2.cross(impulse);
 	}
 }
 
 /// Sum of the speeds that the relative velocity is made of, as sums of components: a bound, without square roots.
 double GrainOperator::speedsAt(const Contact& c) const
 {
-	const BodyState &b1 = state[c.body1], &b2 = state[c.body2];
+	const BodyState &b1 = stateOf(c.body1), &b2 = stateOf(c.body2);
 	const auto size = [](const auto& vector) { return vector.cwiseAbs().sum(); };
 	return size(velocity(b1)) + size(velocity(b2)) + size(angularVelocity(b1)) * size(c.arm1) + size(angularVelocity(b2)) * size(c.arm2) +
 		   size(c.imageVelocity) + std::abs(c.gapVelocity) + (hasField() ? size(gradient) * size(c.arm1 - c.arm2) : 0);
@@ -68,8 +68,9 @@ void GrainOperator::freeVelocities()
 {
 	const auto& bodies = problem->bodies;
 	inRuns(bodies.size(), [&](std::size_t i) {
-		velocity(state[i]) = bodies[i].velocity;
-		angularVelocity(state[i]) = bodies[i].angularVelocity;
+		BodyState& its = stateOf(std::int32_t(i));
+		velocity(its) = bodies[i].velocity;
+		angularVelocity(its) = bodies[i].angularVelocity;
 	});
 }
 
@@ -94,7 +95,7 @@ GrainOperator::Sums GrainOperator::certify(std::size_t first, std::size_t last)
 	Sums result;
 	for (std::size_t i = first; i < last; ++i) {
 		Contact& c = problem->contacts[i];
-		const BodyState &b1 = state[c.body1], &b2 = state[c.body2];
+		const BodyState &b1 = stateOf(c.body1), &b2 = stateOf(c.body2);
 		Vector3 U = velocity(b2) + c.imageVelocity - velocity(b1) + angularVelocity(b2).cross(c.arm2) - angularVelocity(b1).cross(c.arm1);
 		if (hasField()) U += gradient * (c.arm1 - c.arm2);
 		c.relativeVelocity = U;
@@ -174,8 +175,9 @@ void GrainOperator::finish(SolveReport& report)
 {
 	auto& bodies = problem->bodies;
 	inRuns(bodies.size(), [&](std::size_t i) {
-		bodies[i].velocity = velocity(state[i]);
-		bodies[i].angularVelocity = angularVelocity(state[i]);
+		const BodyState& its = stateOf(std::int32_t(i));
+		bodies[i].velocity = velocity(its);
+		bodies[i].angularVelocity = angularVelocity(its);
 	});
 	if (hasField()) problem->meanField->gradient = gradient;
 	report.maxApproachSpeed = maxApproachSpeed;

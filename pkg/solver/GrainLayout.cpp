@@ -14,8 +14,18 @@ void GrainOperator::putSleeper(std::int32_t id)
 {
 	const Contact& c = problem->contacts[id];
 	impulses[id].setZero();
-	sleepers.push_back({c.normal, c.ball ? c.gapVelocity + c.imageVelocity.dot(c.normal) : c.gapVelocity, c.normal.dot(c.arm1 - c.arm2), c.body1,
-						c.body2, id, !c.ball});
+	sleepers.push_back({c.normal, c.ball ? c.gapVelocity + c.imageVelocity.dot(c.normal) : c.gapVelocity, c.normal.dot(c.arm1 - c.arm2),
+						seat[c.body1], seat[c.body2], id, !c.ball});
+}
+
+BallPack GrainOperator::emptyPack() const
+{
+	BallPack empty{};
+	for (int lane = 0; lane < 4; ++lane) {
+		empty.id[lane] = -1;
+		empty.body1[lane] = empty.body2[lane] = ~std::int32_t(problem->bodies.size());
+	}
+	return empty;
 }
 
 void GrainOperator::putBall(BallPack& pack, int lane, std::int32_t id) const
@@ -45,6 +55,8 @@ void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id) const
 	g.id = id;
 	g.body1 = indexOf(c.body1);
 	g.body2 = indexOf(c.body2);
+	g.mobility1 = &problem->bodies[c.body1];
+	g.mobility2 = &problem->bodies[c.body2];
 	g.frame = contactFrame(c.normal);
 	g.arm1 = c.arm1;
 	g.arm2 = c.arm2;
@@ -61,13 +73,22 @@ void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id) const
 	g.direction.setZero();
 }
 
-/// Appends contacts as new colours: counting sort by colour, balls in packs of four, general contacts one by one.
 void GrainOperator::layOut(const std::vector<std::int32_t>& ids)
 {
 	if (ids.empty()) return;
+	if (blockwise)
+		layOutByBlock(ids);
+	else
+		layOutByColour(ids);
+	awake += ids.size();
+}
+
+/// Appends contacts as new colours: counting sort by colour, balls in packs of four, general contacts one by one.
+void GrainOperator::layOutByColour(const std::vector<std::int32_t>& ids)
+{
 	const auto& contacts = problem->contacts;
 	colouring.reset(problem->bodies.size());
-	constexpr int kinds = 2 * (Colouring::overflow + 1);
+	constexpr int kinds = 2 * Colouring::colours; // balls and general contacts of each colour
 	std::size_t count[kinds + 1] = {};
 	colourOf.resize(ids.size());
 	for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -82,15 +103,11 @@ void GrainOperator::layOut(const std::vector<std::int32_t>& ids)
 		std::copy(count, count + kinds, next);
 		for (std::size_t i = 0; i < ids.size(); ++i) order[next[colourOf[i]]++] = ids[i];
 	}
-	BallPack empty{};
-	for (int lane = 0; lane < 4; ++lane) {
-		empty.id[lane] = -1;
-		empty.body1[lane] = empty.body2[lane] = ~std::int32_t(problem->bodies.size());
-	}
+	const BallPack empty = emptyPack();
 	for (int colour = 0; colour <= Colouring::overflow; ++colour) {
 		const std::size_t balls = count[2 * colour], first = count[2 * colour + 1], last = count[2 * colour + 2];
 		if (balls == last) continue;
-		const std::size_t lanes = colour == Colouring::overflow ? 1 : 4; // contacts of the overflow colour do share bodies
+		const std::size_t lanes = Colouring::lanes(colour);
 		const std::size_t firstPack = packs.size(), firstGeneral = generals.size(), firstChunk = chunks.size();
 		packs.resize(firstPack + (first - balls + lanes - 1) / lanes, empty);
 		inRuns(first - balls, [&](std::size_t i) { putBall(packs[firstPack + i / lanes], int(i % lanes), order[balls + i]); });
@@ -98,16 +115,15 @@ void GrainOperator::layOut(const std::vector<std::int32_t>& ids)
 		inRuns(last - first, [&](std::size_t i) { putGeneral(generals[firstGeneral + i], order[first + i]); });
 		const std::size_t packCount = packs.size() - firstPack, generalCount = generals.size() - firstGeneral;
 		if (colour == Colouring::overflow)
-			chunks.push_back({firstPack, packCount, firstGeneral, generalCount});
+			chunks.push_back({firstPack, packCount, firstGeneral, generalCount, 0, 0});
 		else {
 			for (std::size_t k = 0; k < packCount; k += packsPerChunk)
-				chunks.push_back({firstPack + k, std::min(packsPerChunk, packCount - k), 0, 0});
+				chunks.push_back({firstPack + k, std::min(packsPerChunk, packCount - k), 0, 0, 0, 0});
 			for (std::size_t k = 0; k < generalCount; k += generalsPerChunk)
-				chunks.push_back({0, 0, firstGeneral + k, std::min(generalsPerChunk, generalCount - k)});
+				chunks.push_back({0, 0, firstGeneral + k, std::min(generalsPerChunk, generalCount - k), 0, 0});
 		}
 		groups.push_back({firstChunk, chunks.size()});
 	}
-	awake += ids.size();
 }
 
 /// Lays the awake contacts out anew, without those that carry nothing and separate by more than a tenth of the typical change of velocity.
@@ -130,7 +146,7 @@ void GrainOperator::letIdleSleep()
 			if (p.id[k] < 0) continue;
 			bool carries = false;
 			for (int j = 0; j < 3; ++j) carries = carries || p.impulse[j][k] != 0 || p.increment[j][k] != 0 || p.direction[j][k] != 0;
-			sort(p.id[k], carries, state[contacts[p.id[k]].body1].inverseMass + state[contacts[p.id[k]].body2].inverseMass);
+			sort(p.id[k], carries, stateOf(contacts[p.id[k]].body1).inverseMass + stateOf(contacts[p.id[k]].body2).inverseMass);
 		}
 	for (const GeneralContact& g : generals) sort(g.id, !g.impulse.isZero(0) || !g.increment.isZero(0) || !g.direction.isZero(0), g.W(0, 0));
 	if (5 * idle < awake) return; // not worth the move

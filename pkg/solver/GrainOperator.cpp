@@ -21,10 +21,12 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 	movable.resize(bodies.size());
 	crew = &hands;
 	together = isWorthThreads(contacts.size());
+	inRuns(bodies.size(), [&](std::size_t i) { movable[i] = !bodies[i].inverseMass.isZero(0) || !bodies[i].inverseInertia.isZero(0); });
+	takeSeats();
 	inRuns(bodies.size(), [&](std::size_t i) {
-		movable[i] = !bodies[i].inverseMass.isZero(0) || !bodies[i].inverseInertia.isZero(0);
-		state[i].inverseMass = bodies[i].inverseMass[0];
-		state[i].inverseInertia = bodies[i].inverseInertia(0, 0);
+		BodyState& its = stateOf(std::int32_t(i));
+		its.inverseMass = bodies[i].inverseMass[0];
+		its.inverseInertia = bodies[i].inverseInertia(0, 0);
 	});
 	state.back() = {}; // what lanes without a contact refer to
 	impulses.resize(contacts.size());
@@ -83,7 +85,7 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 
 double GrainOperator::normalVelocity(const Contact& c) const
 {
-	const BodyState &b1 = state[c.body1], &b2 = state[c.body2];
+	const BodyState &b1 = stateOf(c.body1), &b2 = stateOf(c.body2);
 	Vector3 u = velocity(b2) + c.imageVelocity - velocity(b1);
 	if (!c.ball) u += angularVelocity(b2).cross(c.arm2) - angularVelocity(b1).cross(c.arm1);
 	if (hasField()) u += gradient * (c.arm1 - c.arm2);
@@ -97,24 +99,17 @@ double GrainOperator::normalVelocity(const Sleeper& s) const
 	return (velocity(state[s.body2]) - velocity(state[s.body1])).dot(s.normal) + field;
 }
 
-void GrainOperator::extrapolate(Extrapolation by, std::size_t i)
+void GrainOperator::extrapolate(Extrapolation by, std::size_t first, std::size_t last)
 {
-	BodyState &now = state[i], &start = sweepStart[i], &d = direction[i];
-	for (int k = 0; k < 3; ++k) {
-		const double lastV = now.velocity[k] - start.velocity[k], lastW = now.angularVelocity[k] - start.angularVelocity[k];
-		const double dv = by.relax * lastV + by.momentum * d.velocity[k], dw = by.relax * lastW + by.momentum * d.angularVelocity[k];
-		d.velocity[k] = lastV + dv;
-		d.angularVelocity[k] = lastW + dw;
-		start.velocity[k] = now.velocity[k] += dv;
-		start.angularVelocity[k] = now.angularVelocity[k] += dw;
-	}
+	bodyAdvance(state.data() + first, sweepStart.data() + first, direction.data() + first, last - first, by);
 }
 
 void GrainOperator::visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by, FieldPass* field)
 {
+	if (accelerated) extrapolate(by, chunk.firstSeat, chunk.lastSeat);
 	norms = chunk.packs ? ballSweep(state.data(), packs.data() + chunk.firstPack, chunk.packs, by, field) : SweepNorms{};
 	for (std::size_t k = chunk.firstGeneral; k < chunk.firstGeneral + chunk.generals; ++k) {
-		const SweepNorms one = contactdynamics::visit(generals[k], state.data(), problem->bodies.data(), by, field);
+		const SweepNorms one = contactdynamics::visit(generals[k], state.data(), by, field);
 		norms.increment2 += one.increment2;
 		norms.impulse2 += one.impulse2;
 	}
@@ -125,7 +120,8 @@ SweepNorms GrainOperator::sweep(Extrapolation by)
 	chunkNorms.resize(chunks.size());
 	if (hasField()) startFieldPass(by);
 	const std::size_t bodies = problem->bodies.size();
-	if (accelerated) inRuns(bodies, [&](std::size_t i) { extrapolate(by, i); });
+	if (accelerated && !blockwise)
+		share((bodies + perRun - 1) / perRun, [&](std::size_t k) { extrapolate(by, k * perRun, std::min(bodies, (k + 1) * perRun)); });
 	for (const Group& group : groups)
 		share(group.lastChunk - group.firstChunk, [&](std::size_t k) {
 			const std::size_t i = group.firstChunk + k;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "BodyBlocks.hpp"
 #include "Colouring.hpp"
 #include "Crew.hpp"
 #include "CrushedContacts.hpp"
@@ -16,14 +17,16 @@ namespace contactdynamics {
 ///
 /// A candidate far from closing costs next to nothing: it sleeps, that is, no sweep visits it; mend() looks at all sleepers and wakes those that
 /// close. Awake contacts are laid out by colour in packs of four; woken ones are appended as colours of their own, and now and then the layout is
-/// made anew without the contacts that turned out idle. All of it depends on the problem alone.
+/// made anew without the contacts that turned out idle. A problem beyond the caches is laid out block by block of neighbouring bodies, and each block
+/// by colour. All of it depends on the problem alone.
 class GrainOperator {
 public:
 	/// Takes the problem over until finish(): free velocities and start impulses, brought inside their cones.
 	/// @param crew  does the work from a few thousand contacts on; must outlive the use of the operator
 	void start(GrainProblem& problem, bool accelerated, Crew& crew);
 	static bool isWorthThreads(std::size_t contacts) { return contacts >= 3000; } ///< below, handing out the colours costs more than it brings
-	static constexpr int firstCheck = 0; ///< a certificate costs six sweeps: wait until the increments promise convergence
+	static constexpr std::size_t blockwiseFrom = 40000; ///< contacts from which on a sweep goes block by block: it no longer fits the caches
+	static constexpr int firstCheck = 0;				///< a certificate costs six sweeps: wait until the increments promise convergence
 	static constexpr bool startsPlainly = true;
 	bool anyAwake() const { return awake > 0; }
 	std::size_t awakeContacts() const { return awake; } ///< those that a sweep visits
@@ -42,10 +45,11 @@ public:
 private:
 	static constexpr std::size_t perRun = 512; // contacts or bodies that one job of the crew looks at
 
-	struct Chunk { // a run of contacts of one colour, visited by one thread, summed as one term
+	struct Chunk { // a run of contacts of one colour, or of one block, visited by one thread, summed as one term
 		std::size_t firstPack, packs, firstGeneral, generals;
+		std::size_t firstSeat, lastSeat; // of the block: bodies to be moved to the extrapolated point before the contacts are visited
 	};
-	struct Group { // chunks of one colour
+	struct Group { // chunks that no body links
 		std::size_t firstChunk, lastChunk;
 	};
 	struct Sleeper {
@@ -66,6 +70,7 @@ private:
 
 	GrainProblem* problem = nullptr;
 	BallSweep ballSweep = selectBallSweep();
+	BodyAdvance bodyAdvance = selectBodyAdvance();
 	bool accelerated = false;
 	int sweeps = 0;
 	Crew* crew = nullptr;
@@ -83,12 +88,15 @@ private:
 	std::vector<FieldPass> chunkFields;
 	std::vector<Matrix3> runMoments;
 
-	std::vector<BodyState> state, sweepStart, direction; // velocities now, at the start of the last sweep, and of the search direction
+	std::vector<BodyState> state, sweepStart, direction; // by seat: velocities now, at the start of the last sweep, and of the search direction
 	std::vector<std::uint8_t> movable;
 	std::vector<Vector3> impulses; // per contact, global axes, inside the cone: what certificate() speaks about
 	std::vector<std::uint8_t> mustWake;
 	std::vector<Sums> sums;
 
+	bool blockwise = false;
+	BodyBlocks blocks;
+	std::vector<std::int32_t> seat; // of each body: place of its velocities
 	Colouring colouring;
 	std::vector<BallPack> packs, oldPacks;
 	std::vector<GeneralContact> generals, oldGenerals;
@@ -97,7 +105,8 @@ private:
 	std::vector<SweepNorms> chunkNorms;
 	std::vector<Sleeper> sleepers;
 	std::vector<Place> place;
-	std::vector<std::int32_t> selected, colourOf, order;
+	std::vector<std::int32_t> selected, colourOf, order, byBlock, firstOfBlock;
+	std::vector<Chunk> blockChunks;
 
 	static bool isCompliant(const Contact& c) { return c.normalCompliance != 0 || c.tangentialCompliance != 0; }
 	bool isBall(const Contact& c) const { return c.ball && c.imageVelocity.isZero(0) && !isCompliant(c); }
@@ -116,16 +125,24 @@ private:
 			for (std::size_t i = k * perRun; i < std::min(count, (k + 1) * perRun); ++i) job(i);
 		});
 	}
-	std::int32_t indexOf(std::int32_t body) const { return movable[body] ? body : ~body; }
+	std::int32_t indexOf(std::int32_t body) const { return movable[body] ? seat[body] : ~seat[body]; }
+	BodyState& stateOf(std::int32_t body) { return state[seat[body]]; }
+	const BodyState& stateOf(std::int32_t body) const { return state[seat[body]]; }
 	double normalVelocity(const Sleeper& s) const;
 	double normalVelocity(const Contact& c) const;
 	void addImpulse(const Contact& c, const Vector3& impulse);
+	void takeSeats();
 	void layOut(const std::vector<std::int32_t>& ids);
+	void layOutByColour(const std::vector<std::int32_t>& ids);
+	void layOutByBlock(const std::vector<std::int32_t>& ids);
+	void colourBlock(std::size_t block);
+	void fillBlock(std::size_t block);
+	BallPack emptyPack() const;
 	void putBall(BallPack& pack, int lane, std::int32_t id) const;
 	void putGeneral(GeneralContact& g, std::int32_t id) const;
 	void putSleeper(std::int32_t id);
 	void letIdleSleep();
-	void extrapolate(Extrapolation by, std::size_t body);
+	void extrapolate(Extrapolation by, std::size_t firstSeat, std::size_t lastSeat);
 	bool hasField() const { return problem->meanField.has_value(); }
 	void startField();
 	void startFieldPass(Extrapolation by);

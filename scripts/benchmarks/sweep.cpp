@@ -9,7 +9,6 @@
 #include "pkg/solver/GrainOperator.hpp"
 
 #include <benchmark/benchmark.h>
-#include <thread>
 
 using namespace contactdynamics;
 
@@ -32,16 +31,14 @@ GrainProblem& lattice(std::int64_t contacts)
 
 void triad(benchmark::State& state)
 {
-	const std::size_t count = 256'000'000 / 24, threads = std::size_t(state.range(0));
+	constexpr std::size_t count = 256'000'000 / 24, parts = 64;
 	std::vector<double> a(count), b(count, 1), c(count, 2);
-	const auto part = [&](std::size_t k) {
-		for (std::size_t i = k * count / threads; i < (k + 1) * count / threads; ++i) a[i] = b[i] + 3 * c[i];
-	};
+	Crew crew(int(state.range(0))); // threads of the kernels, too: new ones would not be spread over the cores in time
+	crew.resume();
 	for (auto _ : state) {
-		std::vector<std::thread> others;
-		for (std::size_t k = 1; k < threads; ++k) others.emplace_back(part, k);
-		part(0);
-		for (std::thread& other : others) other.join();
+		crew.run(parts, [&](std::size_t k) {
+			for (std::size_t i = k * count / parts; i < (k + 1) * count / parts; ++i) a[i] = b[i] + 3 * c[i];
+		});
 		benchmark::ClobberMemory();
 	}
 	state.counters["bytes"] = 24.0 * double(count);
