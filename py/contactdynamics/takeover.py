@@ -14,8 +14,8 @@ from . import ContactDynamicsEngine
 # In units of sqrt(r/g) and sqrt(g r), for the smallest radius r. A grain that falls freely for one step of _REPAIR reaches 0.75 % of the speed
 # sqrt(4 g r) of a fall over one diameter. A step of _DESCENT at the speed of descent, or one that gravity makes, is a way of 0.0025 r.
 _REPAIR, _DESCENT = 0.015, 0.05
-_REST = 5e-4  # a hundredth of the speed that gravity gives in a step of the descent
-_QUIET = 20  # steps in a row at rest
+_REST = 2e-4  # one 250th of the speed that gravity gives in a step of the descent
+_QUIET = 40  # steps in a row at rest
 _LONGEST = 10000  # steps: descents of several radii one after the other
 
 
