@@ -7,7 +7,7 @@
 namespace yade {
 namespace {
 /// Sweeps a step, at most, there and back in turn. Packings of 150 and 400 grains with overlaps of 1 % are repaired alike with 10 and 40.
-constexpr int sweeps = 10;
+constexpr int sweeps = 4;
 /// Bodies are at rest when a sweep displaces them by less than this, of the largest displacement asked for.
 constexpr Real settled = 1e-3;
 /// gamma of the class comment, the compliance of the pull in units of W.
@@ -29,7 +29,6 @@ PenetrationRepair::Row PenetrationRepair::describe(const contactdynamics::Contac
 	// A loaded contact keeps a cushion of overlap: a gap of one rounding error is enough to lose the friction that holds a wedged grain.
 	if (loaded && room > 0) row.target = -std::min(room, 0.5 * allowed * candidate.size);
 	row.yielding = loaded ? 1 / (1 + pullCompliance) : 0;
-	row.deep = candidate.gap < -allowed * candidate.size;
 	return row;
 }
 
@@ -52,14 +51,11 @@ Real PenetrationRepair::visit(const Row& row, Real& pseudoImpulse)
 	return std::abs(change) / row.weight;
 }
 
-/// There and back in turn. Only rows with a body that the last sweep displaced are visited, at first those that are too deep or were at work in the
-/// last step: most overlaps are few and far apart.
+/// There and back in turn. After the first sweep only rows with a body that the last one displaced are visited: most overlaps are few and far apart.
 void PenetrationRepair::sweep(std::vector<Candidate>& candidates, Real unnoticed)
 {
 	const auto count = static_cast<long>(rows.size());
-	stirred.assign(displacements.size(), 0);
-	for (long i = 0; i < count; i++)
-		if (rows[i].deep || candidates[i].pseudoImpulse != 0) stirred[rows[i].body1] = stirred[rows[i].body2] = 1;
+	stirred.assign(displacements.size(), 1);
 	for (int done = 0; done < sweeps; done++) {
 		restless.assign(displacements.size(), 0);
 		bool any = false;
@@ -89,11 +85,8 @@ void PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, std::
 		asked = std::max(asked, row.target);
 		if (row.weight == 0 || (row.yielding == 0 && candidate.pseudoImpulse < 0)) candidate.pseudoImpulse = 0;
 	}
-	for (std::size_t i = 0; i < rows.size(); i++) {
-		Real& pseudoImpulse = candidates[i].pseudoImpulse;
-		if (std::abs(pseudoImpulse) <= settled * rows[i].weight) pseudoImpulse = 0; // no longer at work
-		if (pseudoImpulse != 0) move(rows[i], pseudoImpulse *= asked);
-	}
+	for (std::size_t i = 0; i < rows.size(); i++)
+		if (candidates[i].pseudoImpulse != 0) move(rows[i], candidates[i].pseudoImpulse *= asked);
 	sweep(candidates, settled * asked);
 	for (Candidate& candidate : candidates) candidate.pseudoImpulse /= asked;
 	limit(largestWay * smallest);

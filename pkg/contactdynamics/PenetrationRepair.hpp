@@ -53,7 +53,6 @@ private:
 		Real target;   // -s [m]
 		Real weight;   // 1 / W [kg]
 		Real yielding; // of the pull: p < 0 shrinks by this factor; 0: no pull
-		bool deep;	   // beyond the allowed overlap
 	};
 	std::vector<Row> rows; // parallel to the candidates
 	std::vector<Vector3r> displacements, mobilities;
