@@ -88,6 +88,9 @@ void ContactDynamicsEngine::collect()
 	if (cell) step->useMeanField(*cell, plan);
 	const Real scale = impulseTimeStep > 0 ? scene->dt / impulseTimeStep : 1;
 	step->collectContacts(*scene, contactLaw, warmStart ? scale : 0);
+	if (!step->problem.contacts.empty())
+		if (const std::string forbidden = whatForbidsOtherContacts(*scene); !forbidden.empty())
+			throw std::runtime_error("ContactDynamicsEngine: " + forbidden);
 	step->usePlane();
 	plane = PlaneOfMotion::nameOf(step->planeAxis);
 	ambiguousContacts = yade::ambiguousContacts(step->problem);

@@ -27,7 +27,7 @@ bool isotropic(const FreeMotion& motion)
 }
 bool immobile(const FreeMotion& motion) { return motion.inverseMass == Vector3r::Zero() && motion.inverseInertia == Matrix3r::Zero(); }
 
-[[noreturn]] void refuse(const Interaction& interaction, const char* what, Real value, const char* allowed)
+template <class Value> [[noreturn]] void refuse(const Interaction& interaction, const char* what, const Value& value, const char* allowed)
 {
 	std::ostringstream message;
 	message << "contact #" << interaction.getId1() << "+#" << interaction.getId2() << ": " << what << " is " << value << "; " << allowed << ".";
@@ -226,6 +226,9 @@ void ContactDynamicsStep::requireUsable(const Link& link, const contactdynamics:
 	if (!(contact.friction >= 0 && std::isfinite(contact.friction)))
 		refuse(*link.interaction, "the friction coefficient (ContactDynamicsPhys.tangensOfFrictionAngle)", contact.friction,
 			   "it must be finite and not negative");
+	const std::string& bond = link.phys->bond;
+	if (bond != "none" && bond != "intact" && bond != "broken")
+		refuse(*link.interaction, "ContactDynamicsPhys.bond", '"' + bond + '"', "allowed are none, intact and broken");
 	if (!link.phys->isPlain())
 		link.phys->requireUsable([&](const char* what, Real value, const char* allowed) { refuse(*link.interaction, what, value, allowed); });
 	if (!link.phys->impulse.allFinite())

@@ -25,7 +25,8 @@ public:
 		((Real,proximityDistance,0,Attr::triggerPostLoad,"For functors with a fixed distance of detection: largest gap at which they make a contact [m], for YADE's spheres (interactionDetectionFactor − 1) times the sum of the two smallest radii. Two bodies then do not approach by more than that in a step. "
 			"0 (default): no such limit, the ``..._Proximity`` functors adapt themselves."))
 		((Real,minTimeStep,0,Attr::triggerPostLoad,"Smallest time step [s], ≥ 0; wins over all limits from motion. Default 0: none."))
-		((Real,maxTimeStep,0,Attr::triggerPostLoad,"Largest time step [s], ≥ 0 and not below :yref:`minTimeStep<ContactDynamicsTimeStepper.minTimeStep>`; 0 (default): none but those from motion."))
+		((Real,maxTimeStep,0,Attr::triggerPostLoad,"Largest time step [s], ≥ 0 and not below :yref:`minTimeStep<ContactDynamicsTimeStepper.minTimeStep>`; 0 (default): none but those from motion. "
+			"Springs do not enter the motion looked at: scenes with compliant contacts (:yref:`kn<ContactDynamicsMat.kn>`) need a fiftieth of their period here, those with soft laws the stable step of these."))
 		((Real,growth,1.2,Attr::triggerPostLoad,"Largest ratio of two successive time steps [-], ≥ 1. Default 1.2: after an impact the step is back at ten times its length in 13 steps."))
 		((string,limitedBy,"",Attr::readonly,"What determined the last time step: ``displacement``, ``rotation``, ``proximity``, ``growth``, ``minTimeStep``, ``maxTimeStep``, or nothing (empty) if nothing moves."))
 	);

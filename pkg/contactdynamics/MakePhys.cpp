@@ -2,6 +2,7 @@
 #include "MakePhys.hpp"
 #include "ContactDynamicsManifoldPhys.hpp"
 #include "RefusedInteraction.hpp"
+#include "StockControllers.hpp"
 #include <core/Interaction.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/ElastMat.hpp>
@@ -28,6 +29,8 @@ void makePhys(const Scene* scene, const FrictMat& material1, const FrictMat& mat
 				<< material2.frictionAngle << "); it must lie in [0, pi/2).";
 		refuseInteraction(scene, interaction, message.str());
 	}
+	const std::string forbidden = whatForbidsOtherContacts(*scene);
+	if (!forbidden.empty()) refuseInteraction(scene, interaction, pair + ": " + forbidden);
 	if (!dynamic_cast<ScGeom*>(interaction.geom.get()))
 		refuseInteraction(scene, interaction,
 						  pair + ": geometry " + interaction.geom->getClassName() +

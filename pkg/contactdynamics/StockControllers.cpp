@@ -61,4 +61,15 @@ void requireUsableControllers(const Scene& scene, const Engine& engine)
 	}
 }
 
+std::string whatForbidsOtherContacts(const Scene& scene)
+{
+	for (const auto& engine : scene.engines)
+		if (engine && !engine->dead && engine->getClassName() == "Law2_ScGeom_CapillaryPhys_Capillarity")
+			return "Law2_ScGeom_CapillaryPhys_Capillarity stands in O.engines. It takes every interaction of the scene for one of its own class, and "
+				   "so "
+				   "cannot act beside any other law. Use ViscElCapMat with Law2_ScGeom_ViscElCapPhys_Basic for capillary bridges beside Contact "
+				   "Dynamics.";
+	return "";
+}
+
 } // namespace yade

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <string>
 
 namespace yade {
 
@@ -13,5 +14,10 @@ class Engine;
 /// @param engine  ContactDynamicsEngine
 /// @throws std::runtime_error  naming the controller and what to use instead, or where to put it
 void requireUsableControllers(const Scene& scene, const Engine& engine);
+
+/// Law2_ScGeom_CapillaryPhys_Capillarity, an engine, takes the physics of every interaction for its own class without looking: beside a contact of
+/// another class it reads and writes past the end of an object. So no contact of ours may exist where it acts.
+/// @returns what to say where this engine is in O.engines, else an empty string
+std::string whatForbidsOtherContacts(const Scene& scene);
 
 } // namespace yade

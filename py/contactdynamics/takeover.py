@@ -15,7 +15,7 @@ from . import ContactDynamicsEngine
 # sqrt(4 g r) of a fall over one diameter. A step of _DESCENT at the speed of descent, or one that gravity makes, is a way of 0.0025 r.
 _REPAIR, _DESCENT = 0.015, 0.05
 _REST = 5e-4  # a hundredth of the speed that gravity gives in a step of the descent
-_QUIET = 20  # steps in a row at rest
+_CALM, _LISTENED = 20, 300  # steps in a row at rest: with bodies stopped, and then with none
 _LONGEST = 10000  # steps: descents of several radii one after the other
 
 
@@ -122,29 +122,30 @@ class _Settling:
         """Let down what has lost its hold; whether all came to rest.
 
         Bodies gather speed, so that a slow roll off a flat place takes no longer than a fall, up to a limit; a body that gets slower has passed the lowest
-        place on its way, and is stopped there. (Stopping all bodies in every step was rejected: a roll that begins slowly never ends.)
+        place on its way, and is stopped there. (Stopping all bodies in every step was rejected: a roll that begins slowly never ends.) Once all are at rest
+        none is stopped for a while: one that lies on a summit shows it by rolling off.
         """
         O.dt = self.step(_DESCENT)
-        limit = _DESCENT * self.speed
-        before, quiet = [0.0] * len(self.free), 0
+        before, calm = [0.0] * len(self.free), 0
         for _ in range(most):
             O.step()
-            fastest = 0.0
-            for k, body in enumerate(self.free):
-                speed = body.state.vel.norm()
-                fastest = max(fastest, speed)
-                if speed < before[k]:
-                    self._scale([body], 0)
-                    before[k] = 0.0
-                elif speed > limit:
-                    self._scale([body], limit / speed)
-                    before[k] = limit * (1 - 1e-3)  # room for the rounding of the product
-                else:
-                    before[k] = speed
-            quiet = quiet + 1 if fastest <= _REST * self.speed else 0
-            if quiet == _QUIET:
+            speeds = [body.state.vel.norm() for body in self.free]
+            calm = calm + 1 if max(speeds, default=0.0) <= _REST * self.speed else 0
+            if calm == _CALM + _LISTENED:
                 return True
+            before = speeds if calm > _CALM else [self._lower(*each) for each in zip(self.free, speeds, before)]
         return False
+
+    def _lower(self, body: Any, speed: float, before: float) -> float:
+        """Stop a body that got slower, and slow down one that is too fast; returns its speed."""
+        limit = _DESCENT * self.speed
+        if speed < before:
+            self._scale([body], 0)
+            return 0.0
+        if speed > limit:
+            self._scale([body], limit / speed)
+            return limit * (1 - 1e-3)  # room for the rounding of the product
+        return speed
 
     @staticmethod
     def _scale(bodies: list, factor: float) -> None:

@@ -27,11 +27,12 @@ O.engines = [
 O.dt = 5e-4
 O.run(6000, True)
 
+overlaps = [contact.geom.penetrationDepth for contact in O.interactions if contact.isReal]
+before = sum(overlaps) / len(overlaps)
+
 # start of the script
 takeOver(contactdynamics.engines(), dt=1e-3)
-O.run(1, True)
-before = cd.meanPenetration
-O.run(999, True)
+O.run(1000, True)
 # end of the script
 print(f"mean overlap from {before / radius:.1e} to {cd.meanPenetration / radius:.1e} radii")
 assert before > 1e-3 * radius and cd.meanPenetration < 1e-4 * radius

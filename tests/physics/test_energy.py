@@ -41,6 +41,10 @@ def gas(gravity: float, **attributes) -> float:
     return kinetic_energy()
 
 
+EVERYTHING = dict(normalRestitution=0.5, tangentialRestitution=0.3, restitutionVelocity=0.1, frictionAngle=0.3, staticFrictionAngle=0.6)
+EVERYTHING.update(cohesionForce=1e4, cohesionStress=1e3, rollingFriction=0.05, twistingFriction=0.05)
+
+
 @pytest.mark.parametrize(
     "attributes, seen",
     [
@@ -52,6 +56,7 @@ def gas(gravity: float, **attributes) -> float:
         ),
         (dict(cohesionForce=2e4), {"contactCohesion", "contactFriction", "contactImpact"}),
         (dict(kn=2e8, ks=1e8, normalDamping=1e4), {"contactDamping"}),
+        (EVERYTHING, {"contactCohesion", "contactFriction", "contactRestitution", "contactRolling"}),
     ],
 )
 @pytest.mark.parametrize("gravity", [0.0, G])

@@ -66,3 +66,14 @@ def test_two_balls_use_the_reduced_radius() -> None:
     assert contact(one, two).phys.rollingArm == pytest.approx(0.1 / 3)
     assert O.forces.t(two)[1] == pytest.approx(-1000 * 0.1 / 3, rel=1e-9)
     assert O.forces.t(one)[1] == pytest.approx(1000 * 0.1 / 3, rel=1e-9)
+
+
+def test_stopping_is_no_failure_of_the_solve() -> None:
+    """In the step in which a rolling ball stops its torque goes to zero; the bound of the torque is the measure then, not the torque."""
+    law(rollingFriction=0.1, frictionAngle=0.7)
+    floor()
+    ball = grain((0, 0, 1), velocity=(2, 0, 0), spin=(0, 2, 0))
+    equip(2e-3, tolerance=1e-12, onNonConvergence="raise")
+    # 7 v^2 / (10 mu_r g) = 2.85 m at a deceleration of 5/7 mu_r g: 1427 steps.
+    steps(1500)
+    assert state(ball).vel.norm() < 1e-10

@@ -49,8 +49,12 @@ def test_contradictions_of_a_pair_name_the_contact(attributes: dict, words: str)
         O.step()
 
 
-@pytest.mark.parametrize("name, value", [("normalRestitution", -1), ("kn", float("nan")), ("cohesionForce", -3.0)])
-def test_bad_values_of_a_contact(name: str, value: float) -> None:
+OF_A_CONTACT = ["normalRestitution", "tangentialRestitution", "restitutionVelocity", "staticFriction", "cohesionForce", "cohesionShear", "kn"]
+OF_A_CONTACT += ["ks", "normalDamping", "rollingArm", "twistingArm", "tangensOfFrictionAngle"]
+
+
+@pytest.mark.parametrize("name, value", [(name, value) for name in OF_A_CONTACT for value in (-1.0, math.nan, math.inf)] + [("bond", "glued")])
+def test_bad_values_of_a_contact(name: str, value: object) -> None:
     law(normalRestitution=0.5)
     floor()
     grain((0, 0, 1))

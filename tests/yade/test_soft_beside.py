@@ -11,9 +11,11 @@ from yade import (
     FrictMat,
     Ig2_Sphere_Sphere_ScGeom6D,
     Ip2_CohFrictMat_CohFrictMat_CohFrictPhys,
+    Ip2_FrictMat_FrictMat_CapillaryPhys,
     Ip2_FrictMat_FrictMat_FrictPhys,
     Ip2_ViscElMat_ViscElMat_ViscElPhys,
     Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
+    Law2_ScGeom_CapillaryPhys_Capillarity,
     Law2_ScGeom_FrictPhys_CundallStrack,
     Law2_ScGeom_ViscElPhys_Basic,
     O,
@@ -198,3 +200,36 @@ def test_soft_pairs_keep_their_bits_beside_rigid_ones(kind: str) -> None:
         if use:
             assert contact(2, 3) is not None and abs(state(2).vel[0] - 3) > 0.1, "nor did the rigid ones"
     assert tracks[0] == tracks[1]
+
+
+@pytest.mark.parametrize("rigid_pair", [True, False])
+def test_capillarity_engine_has_no_contacts_of_other_laws_beside_it(rigid_pair: bool, tmp_path, monkeypatch) -> None:
+    """YADE's Law2_ScGeom_CapillaryPhys_Capillarity casts every interaction to its own class unseen: refused before it touches one of ours."""
+    monkeypatch.chdir(tmp_path)  # it looks for its tables where YADE runs, and acts without them, too, with bridges of no force
+    wet = O.materials[O.materials.append(FrictMat(young=1e7, poisson=0.3, frictionAngle=0.5, density=2600))]
+    grain((0, 0, 8), material=wet)
+    grain((0, 0, 10), material=wet, fixed=True)
+    rigid = law()
+    lower, upper = grain((5, 0, 0), material=rigid, fixed=True), grain((5, 0, 2 if rigid_pair else 3), material=rigid)
+    equip(H)
+    loop = engine("InteractionLoop")
+    loop.physDispatcher.functors = [Ip2_FrictMat_FrictMat_CapillaryPhys()] + [
+        f for f in loop.physDispatcher.functors if "ContactDynamicsMat" in type(f).__name__
+    ]
+    loop.lawDispatcher.functors = loop.lawDispatcher.functors + [Law2_ScGeom_FrictPhys_CundallStrack(neverErase=True)]
+    dry = O.engines
+    O.engines = dry[:3] + [Law2_ScGeom_CapillaryPhys_Capillarity(capillaryPressure=1)] + dry[3:]
+    if not rigid_pair:
+        steps(3)
+        assert type(O.interactions[0, 1].phys).__name__ == "CapillaryPhys"
+        return
+    with pytest.raises(RuntimeError, match=f"#{lower}\\+#{upper}: Law2_ScGeom_CapillaryPhys_Capillarity.*ViscElCapMat"):
+        O.step()
+    assert not O.interactions[lower, upper].isReal and state(upper).vel[2] == 0
+    O.engines = dry
+    steps(2)
+    assert contact(lower, upper).phys.normalForce.norm() == pytest.approx(state(upper).mass * 9.81, rel=1e-9)
+    # Added while such contacts exist: the engine says so in the step before the other one acts.
+    O.engines = dry + [Law2_ScGeom_CapillaryPhys_Capillarity(capillaryPressure=1)]
+    with pytest.raises(RuntimeError, match="Capillarity"):
+        O.step()
