@@ -344,10 +344,10 @@ bool ContactDynamicsStep::standsStill() const
 contactdynamics::SolveReport ContactDynamicsStep::solveAtRest(const contactdynamics::SolverOptions& options)
 {
 	constexpr int sweeps = 200;
-	constexpr Real better = 1e-4; // of the tolerance
+	constexpr Real better = 1e-4, best = 1e-12; // of the tolerance; beyond lies round-off
 	const std::vector<contactdynamics::Body> before = problem.bodies;
 	contactdynamics::SolverOptions careful = options;
-	careful.tolerance = better * options.tolerance;
+	careful.tolerance = std::min(options.tolerance, std::max(better * options.tolerance, best));
 	careful.maxIterations = std::min(options.maxIterations, sweeps);
 	auto report = solveOnce(careful);
 	if (report.status != contactdynamics::SolveStatus::maxIterations) return report;

@@ -16,7 +16,7 @@ def main() -> None:
     parser.add_argument("--bodies", type=int, default=1000, help="number of polyhedra (default 1000)")
     parser.add_argument("--seed", type=int, default=1, help="seed of shapes and orientations (default 1)")
     parser.add_argument("--threads", type=int, default=1, help="threads of YADE (default 1)")
-    parser.add_argument("--time", type=float, default=4.0, help="longest simulated time, in units of sqrt(height of the fall / g) (default 4)")
+    parser.add_argument("--time", type=float, default=8.0, help="longest simulated time, in units of sqrt(height of the fall / g) (default 8)")
     parser.add_argument("--out", default=os.path.join("out", "bench"), help="folder of the CSV file (default out/bench)")
     options = parser.parse_args()
     if options.bodies < 1 or options.threads < 1:
