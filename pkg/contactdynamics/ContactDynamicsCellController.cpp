@@ -5,6 +5,7 @@
 #include <core/Cell.hpp>
 #include <core/EnergyTracker.hpp>
 #include <core/Scene.hpp>
+#include <pkg/common/Sphere.hpp>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -62,6 +63,38 @@ void ContactDynamicsCellController::action()
 
 bool ContactDynamicsCellController::controlsStress(int row, int column) const { return stressMask & (1 << (row == column ? row : 6 - row - column)); }
 
+/// Inertia that the step is made with; 0 if it is to come from the bodies and none is movable.
+Real ContactDynamicsCellController::inertiaFor(const Scene& scene) const
+{
+	if (inertia > 0) return inertia;
+	if (inertiaInUse > 0) return inertiaInUse;
+	Real mass = 0;
+	int count = 0;
+	for (const auto& body : *scene.bodies) {
+		if (!body || body->isClumpMember() || !body->isDynamic()) continue;
+		mass += body->state->mass;
+		count++;
+	}
+	return mass > 0 ? mass * std::pow(scene.cell->hSize.determinant() / count, Real(2) / 3) / 3 : 0;
+}
+
+ContactDynamicsCellController::Outlook ContactDynamicsCellController::outlook(const Scene& scene) const
+{
+	const Real M = inertiaFor(scene);
+	if (!scene.isPeriodic || !(M > 0)) return {};
+	const Matrix3r& now = scene.cell->velGrad;
+	const Real perStress = scene.cell->hSize.determinant() / M;
+	Matrix3r gradient = velGrad, push = Matrix3r::Zero();
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j < 3; j++) {
+			if (!controlsStress(i, j)) continue;
+			const Real stretch = 0.5 * (now(i, j) + now(j, i)) + scene.dt * perStress * (stress(i, j) - 0.5 * (currentStress(i, j) + currentStress(j, i)));
+			gradient(i, j) = std::clamp(stretch, -maxStrainRate, maxStrainRate) + 0.5 * (velGrad(i, j) - velGrad(j, i));
+			push(i, j) = perStress * stress(i, j);
+		}
+	return {gradient.norm(), push.norm()};
+}
+
 contactdynamics::MeanField ContactDynamicsCellController::freeMotion(const Scene& scene, const Matrix3r& otherStress)
 {
 	if (!scene.isPeriodic) throw std::runtime_error("ContactDynamicsCellController: the scene is not periodic (O.periodic is False).");
@@ -70,21 +103,11 @@ contactdynamics::MeanField ContactDynamicsCellController::freeMotion(const Scene
 		throw std::runtime_error("ContactDynamicsCellController: O.cell.homoDeform is " + std::to_string(cell.homoDeform) +
 								 "; it must be at least 1, so that the bodies follow the cell.");
 	requireAdmissible(); // again: Python writes single components of a matrix past postLoad()
-	if (inertia > 0) inertiaInUse = inertia;
 	const Real volume = cell.hSize.determinant();
-	if (!(inertiaInUse > 0)) {
-		Real mass = 0;
-		int count = 0;
-		for (const auto& body : *scene.bodies) {
-			if (!body || body->isClumpMember() || !body->isDynamic()) continue;
-			mass += body->state->mass;
-			count++;
-		}
-		if (!(mass > 0))
-			throw std::runtime_error(
-					"ContactDynamicsCellController.inertia = 0: it cannot be taken from the bodies, because none is movable and has mass.");
-		inertiaInUse = mass * std::pow(volume / count, Real(2) / 3) / 3;
-	}
+	inertiaInUse = inertiaFor(scene);
+	if (!(inertiaInUse > 0))
+		throw std::runtime_error(
+				"ContactDynamicsCellController.inertia = 0: it cannot be taken from the bodies, because none is movable and has mass.");
 
 	contactdynamics::MeanField field;
 	field.limit = maxStrainRate;
@@ -108,6 +131,26 @@ void ContactDynamicsCellController::requireSmallStrain(const Scene& scene, const
 	message << "ContactDynamicsCellController: the cell would be strained by " << strain << " in this step (O.dt = " << scene.dt << "); at most "
 			<< largestStrain << " is allowed. Lower O.dt or set maxStrainRate.";
 	throw std::runtime_error(message.str());
+}
+
+void ContactDynamicsCellController::requireRoom(const Scene& scene, const Matrix3r& gradient)
+{
+	const Cell& cell = *scene.cell;
+	const Matrix3r hSize = cell.hSize + scene.dt * gradient * cell.hSize;
+	for (int axis = 0; axis < 3; axis++) {
+		const Vector3r normal = hSize.col((axis + 1) % 3).cross(hSize.col((axis + 2) % 3)).normalized();
+		const Real width = std::abs(normal.dot(hSize.col(axis)));
+		for (const auto& body : *scene.bodies) {
+			const auto* sphere = body && (body->isDynamic() || body->isClumpMember()) ? dynamic_cast<const Sphere*>(body->shape.get()) : nullptr;
+			if (!sphere || 4 * sphere->radius < width) continue;
+			std::ostringstream message;
+			message << "ContactDynamicsCellController: sphere #" << body->getId() << " has the diameter " << 2 * sphere->radius
+					<< ", and with this step the periodic cell would be " << width << " wide across its edge " << axis
+					<< "; it must be more than two diameters, because YADE knows one contact of two bodies only, and none of a body with itself. "
+					   "Use more bodies, or stop compressing the cell.";
+			throw std::runtime_error(message.str());
+		}
+	}
 }
 
 void ContactDynamicsCellController::apply(Scene& scene, const Matrix3r& gradient, const Matrix3r& moment, const Matrix3r& otherStress)

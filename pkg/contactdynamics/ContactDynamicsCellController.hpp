@@ -25,9 +25,20 @@ public:
 	/// @param moment  see ContactDynamicsStep::moment() [N m s]
 	void apply(Scene& scene, const Matrix3r& gradient, const Matrix3r& moment, const Matrix3r& otherStress);
 
+	/// What may come in the next step, for those who look ahead: the reach of bodies, the time step.
+	struct Outlook {
+		Real rate = 0;		   ///< norm of the velocity gradient if the contacts resist as in the last step [1/s]
+		Real acceleration = 0; ///< norm of its rate of change if they do not resist at all [1/s2]
+	};
+	Outlook outlook(const Scene& scene) const;
+	/// @throws std::runtime_error  with the gradient of the coming step a movable body would reach over half of the cell, and so touch another one
+	///         twice, or itself
+	static void requireRoom(const Scene& scene, const Matrix3r& gradient);
+
 private:
 	void requireAdmissible() const;
 	bool controlsStress(int row, int column) const;
+	Real inertiaFor(const Scene& scene) const;
 
 public:
 	// clang-format off

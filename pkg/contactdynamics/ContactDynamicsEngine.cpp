@@ -106,7 +106,10 @@ void ContactDynamicsEngine::solve()
 	if (report.status == contactdynamics::SolveStatus::notFinite)
 		throw std::runtime_error("ContactDynamicsEngine: the contact problem of step " + std::to_string(scene->iter) +
 								 " has values that are not finite (external force, inertia or contact geometry); no body was moved.");
-	if (cellController) ContactDynamicsCellController::requireSmallStrain(*scene, step->problem.meanField->gradient);
+	if (cellController) {
+		ContactDynamicsCellController::requireSmallStrain(*scene, step->problem.meanField->gradient);
+		ContactDynamicsCellController::requireRoom(*scene, step->problem.meanField->gradient);
+	}
 	if (converged || onNonConvergence == "ignore") return;
 	std::ostringstream message;
 	if (report.status == contactdynamics::SolveStatus::unbounded)

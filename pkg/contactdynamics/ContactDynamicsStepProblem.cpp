@@ -9,6 +9,8 @@
 
 namespace yade {
 namespace {
+constexpr std::size_t largestFull = 1000; // contacts: W has 9e6 numbers then, which as a Python list take 0.3 GB
+
 template <class Values> boost::python::list listOf(const Values& values)
 {
 	boost::python::list list;
@@ -22,10 +24,11 @@ contactdynamics::BlockProblem ContactDynamicsStep::assembledProblem(const char* 
 	if (!solved)
 		throw std::runtime_error(std::string("ContactDynamicsEngine.") + caller +
 								 ": no step has been solved yet (or the last one ended with an error before the solve).");
-	if (problem.meanField)
+	if (problem.meanField && !problem.meanField->inverseMass.isZero(0) && problem.contacts.size() > largestFull)
 		throw std::runtime_error(
 				std::string("ContactDynamicsEngine.") + caller +
-				": the cell of a ContactDynamicsCellController couples all contacts with each other; such a problem has no sparse W.");
+				": the cell of a ContactDynamicsCellController couples all contacts with each other, so W is full; that is written out for at most " +
+				std::to_string(largestFull) + " contacts, and there are " + std::to_string(problem.contacts.size()) + '.');
 	const contactdynamics::GrainProblem grains = shifted.asSolved(problem);
 	std::vector<Matrix3r> frames(grains.contacts.size());
 	for (std::size_t i = 0; i < frames.size(); i++) {
@@ -34,7 +37,7 @@ contactdynamics::BlockProblem ContactDynamicsStep::assembledProblem(const char* 
 		frames[i] = sign * localFrame(sign * grains.contacts[i].normal);
 	}
 	contactdynamics::BlockProblem blocks = contactdynamics::assembled(grains, frames);
-	if (shifted.empty()) // then nothing but gravity and other known forces is in q: from these, and not from u - W r, for an independent check
+	if (shifted.empty() && !problem.meanField) // then nothing but gravity and other known forces is in q: from these, and not from u - W r, for an independent check
 		for (std::size_t i = 0; i < frames.size(); i++) {
 			const contactdynamics::Contact& contact = grains.contacts[i];
 			Eigen::Map<Vector3r>(&blocks.q[3 * i]) =

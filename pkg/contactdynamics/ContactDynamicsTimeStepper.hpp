@@ -15,7 +15,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(ContactDynamicsTimeStepper,TimeStepper,
 		"Sets ``O.dt`` before every step from the motion of the bodies, for :yref:`ContactDynamicsEngine`: rigid contacts have no stiffness to take a time step from, so what limits the step is how far bodies go in it. "
-		"With v the largest speed of a body, g the magnitude of gravity (and permanent force over mass), d the way allowed and ω the largest rate of rotation, h is the largest step with h·(v + h·g) ≤ d and h·ω ≤ :yref:`maxRotation<ContactDynamicsTimeStepper.maxRotation>`. "
+		"With v the largest speed of a body (and the strain rate of a periodic cell times the smallest radius), g the magnitude of gravity (and permanent force over mass, and what a prescribed stress accelerates cell or wall with), d the way allowed and ω the largest rate of rotation, h is the largest step with h·(v + h·g) ≤ d and h·ω ≤ :yref:`maxRotation<ContactDynamicsTimeStepper.maxRotation>`. "
 		"It shrinks at once and grows by at most :yref:`growth<ContactDynamicsTimeStepper.growth>` a step. A fast body does not tunnel, because candidates for contact are looked for as far as the step can carry it (``..._Proximity`` functors), "
 		"and does not slow the scene down by more than its own way requires. Impulses kept for the warm start are rescaled by the engine. \n\n"
 		"Stands behind :yref:`ForceResetter` and before the collider, which has to know the step to come (``contactdynamics.engines(timeStepper=True)``); elsewhere RuntimeError. If nothing moves and nothing accelerates, ``O.dt`` stays as it is. "

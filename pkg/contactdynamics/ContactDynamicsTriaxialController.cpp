@@ -2,8 +2,10 @@
 #include "ContactDynamicsTriaxialController.hpp"
 #include "AdmittedValues.hpp"
 #include "RefuseAttribute.hpp"
+#include <core/Interaction.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
+#include <pkg/common/NormShearPhys.hpp>
 #include <pkg/common/Wall.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <algorithm>
@@ -56,10 +58,10 @@ void ContactDynamicsTriaxialController::postLoad(ContactDynamicsTriaxialControll
 	if (wallMass != before) wallMassInUse = 0;
 }
 
-const Body& ContactDynamicsTriaxialController::wall(int place) const
+const Body& ContactDynamicsTriaxialController::wall(const Scene& ofScene, int place) const
 {
 	const int id = walls[place];
-	const Body* body = id < static_cast<int>(scene->bodies->size()) ? (*scene->bodies)[id].get() : nullptr;
+	const Body* body = id < static_cast<int>(ofScene.bodies->size()) ? (*ofScene.bodies)[id].get() : nullptr;
 	if (!body || halfThickness(body->shape.get(), place / 2) < 0)
 		throw std::runtime_error("ContactDynamicsTriaxialController.walls: body #" + std::to_string(id) +
 								 (body ? " is no Box or Wall perpendicular to " : " does not exist; needed is the wall perpendicular to ") +
@@ -67,11 +69,11 @@ const Body& ContactDynamicsTriaxialController::wall(int place) const
 	return *body;
 }
 
-Vector3r ContactDynamicsTriaxialController::measureSize() const
+Vector3r ContactDynamicsTriaxialController::measureSize(const Scene& ofScene) const
 {
 	Vector3r edges;
 	for (int axis = 0; axis < 3; axis++) {
-		const Body &low = wall(2 * axis), &high = wall(2 * axis + 1);
+		const Body &low = wall(ofScene, 2 * axis), &high = wall(ofScene, 2 * axis + 1);
 		edges[axis] = high.state->pos[axis] - low.state->pos[axis] - halfThickness(high.shape.get(), axis) - halfThickness(low.shape.get(), axis);
 		if (!(edges[axis] > 0))
 			throw std::runtime_error("ContactDynamicsTriaxialController: the box has the length " + std::to_string(edges[axis]) + " along " +
@@ -81,32 +83,68 @@ Vector3r ContactDynamicsTriaxialController::measureSize() const
 	return edges;
 }
 
-void ContactDynamicsTriaxialController::takeMass()
+/// Mass that the step is made with; 0 if it is to come from the bodies and none is movable.
+Real ContactDynamicsTriaxialController::massFor(const Scene& ofScene) const
 {
-	if (wallMass > 0) wallMassInUse = wallMass;
-	if (wallMassInUse > 0) return;
+	if (wallMass > 0) return wallMass;
+	if (wallMassInUse > 0) return wallMassInUse;
 	Real mass = 0;
 	int count = 0;
-	for (const auto& body : *scene->bodies) {
+	for (const auto& body : *ofScene.bodies) {
 		if (!body || body->isClumpMember() || !body->isDynamic() || std::count(walls.begin(), walls.end(), body->getId())) continue;
 		mass += body->state->mass;
 		count++;
 	}
-	if (!(mass > 0))
-		throw std::runtime_error(
-				"ContactDynamicsTriaxialController.wallMass = 0: it cannot be taken from the bodies, because none is movable and has mass.");
-	wallMassInUse = mass / std::cbrt(count);
+	return mass > 0 ? 0.1 * mass / std::cbrt(count) : 0;
 }
 
-/// Force along the axis, for the area across it, and at most what leads to the bound on the rate.
+std::vector<ContactDynamicsTriaxialController::Outlook> ContactDynamicsTriaxialController::outlook(const Scene& ofScene) const
+{
+	const Real mass = massFor(ofScene);
+	if (walls.size() != 6 || !(mass > 0)) return {};
+	Vector3r edges;
+	try {
+		edges = measureSize(ofScene);
+	} catch (const std::runtime_error&) {
+		return {};
+	}
+	std::vector<Outlook> walls;
+	for (int axis = 0; axis < 3; axis++) {
+		const Body& body = wall(ofScene, 2 * axis + 1);
+		if (!(stressMask & (1 << axis))) {
+			walls.push_back({body.getId(), std::abs(strainRate[axis]) * edges[axis], 0});
+			continue;
+		}
+		const Real push = -stress[axis] * edges[(axis + 1) % 3] * edges[(axis + 2) % 3], speed = std::abs(body.state->vel[axis]);
+		const Real faster = speed + ofScene.dt * std::abs(push - resistance(body, axis)) / mass;
+		walls.push_back({body.getId(), std::max(speed, std::min(faster, maxStrainRate * edges[axis])), push / mass});
+	}
+	return walls;
+}
+
+/// What the grains pushed it with in the last step, along the axis [N].
+Real ContactDynamicsTriaxialController::resistance(const Body& body, int axis)
+{
+	Real sum = 0;
+	for (const auto& other : body.intrs) {
+		if (!other.second->isReal()) continue;
+		const auto* phys = dynamic_cast<const NormShearPhys*>(other.second->phys.get());
+		if (phys) sum += (other.second->getId2() == body.getId() ? 1 : -1) * (phys->normalForce[axis] + phys->shearForce[axis]);
+	}
+	return sum;
+}
+
+/// Force along the axis, for the area across it, and at most what leads to the bound on the rate while the grains resist twice as much as they did.
 void ContactDynamicsTriaxialController::press(int axis, Real area)
 {
-	const Body& body = wall(2 * axis + 1);
+	const Body& body = wall(*scene, 2 * axis + 1);
 	State& state = *body.state;
 	state.blockedDOFs = State::DOF_ALL & ~State::axisDOF(axis);
 	state.mass = wallMassInUse;
 	const Real fastest = maxStrainRate * size[axis], h = scene->dt;
-	const Real force = std::max(stress[axis] * area, wallMassInUse * (-fastest - state.vel[axis]) / h);
+	// Without the resistance a light wall would never be pressed with more than its own mass can take in a step, however slowly it moves. Twice:
+	// then the force grows to the goal within a few steps, and what grains that settle take off for a moment does not weaken the next step.
+	const Real force = std::max(stress[axis] * area, wallMassInUse * (-fastest - state.vel[axis]) / h - 2 * resistance(body, axis));
 	Real gravity = 0;
 	for (const auto& engine : scene->engines)
 		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get()); newton && !newton->dead) gravity = newton->gravity[axis];
@@ -117,7 +155,7 @@ void ContactDynamicsTriaxialController::press(int axis, Real area)
 
 void ContactDynamicsTriaxialController::drive(int axis)
 {
-	State& state = *wall(2 * axis + 1).state;
+	State& state = *wall(*scene, 2 * axis + 1).state;
 	state.blockedDOFs = State::DOF_ALL;
 	state.vel = Vector3r::Zero();
 	state.vel[axis] = size[axis] * std::expm1(strainRate[axis] * scene->dt) / scene->dt;
@@ -128,12 +166,15 @@ void ContactDynamicsTriaxialController::action()
 	requireAdmissible(); // again: Python writes single components of a vector past postLoad()
 	if (walls.empty())
 		throw std::runtime_error("ContactDynamicsTriaxialController.walls is empty: it must be six ids. contactdynamics.triaxial.box() builds them.");
-	size = measureSize();
-	takeMass();
+	size = measureSize(*scene);
+	wallMassInUse = massFor(*scene);
+	if (!(wallMassInUse > 0))
+		throw std::runtime_error(
+				"ContactDynamicsTriaxialController.wallMass = 0: it cannot be taken from the bodies, because none is movable and has mass.");
 	if (referenceSize == Vector3r::Zero()) referenceSize = size;
 	for (int axis = 0; axis < 3; axis++) {
 		strain[axis] = std::log(size[axis] / referenceSize[axis]);
-		State& held = *wall(2 * axis).state;
+		State& held = *wall(*scene, 2 * axis).state;
 		held.blockedDOFs = State::DOF_ALL;
 		held.vel = held.angVel = Vector3r::Zero();
 		if (stressMask & (1 << axis))

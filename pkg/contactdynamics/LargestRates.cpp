@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "LargestRates.hpp"
+#include "ContactDynamicsCellController.hpp"
+#include "ContactDynamicsTriaxialController.hpp"
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
@@ -32,7 +34,23 @@ LargestRates::LargestRates(const Scene& scene)
 		if (!body->isDynamic() || body->isClumpMember()) continue;
 		raise(acceleration, gravity + (permForces && state.mass > 0 ? forces.getPermForce(body->getId()).norm() / state.mass : 0));
 	}
-	if (scene.isPeriodic) raise(rotation, scene.cell->velGrad.norm());
+	Real strain = scene.isPeriodic ? scene.cell->velGrad.norm() : 0, straining = 0;
+	for (const auto& engine : scene.engines) {
+		if (const auto* cell = dynamic_cast<const ContactDynamicsCellController*>(engine.get()); cell && !cell->dead) {
+			const auto coming = cell->outlook(scene);
+			raise(strain, coming.rate);
+			raise(straining, coming.acceleration);
+		}
+		if (const auto* box = dynamic_cast<const ContactDynamicsTriaxialController*>(engine.get()); box && !box->dead)
+			for (const auto& wall : box->outlook(scene)) {
+				raise(speed, wall.speed);
+				raise(acceleration, wall.acceleration);
+			}
+	}
+	raise(rotation, strain);
+	// Two touching bodies part or meet by the strain times the sum of their radii; each of them gets its own.
+	raise(speed, speed + strain * smallestRadius);
+	raise(acceleration, acceleration + straining * smallestRadius);
 }
 
 } // namespace yade

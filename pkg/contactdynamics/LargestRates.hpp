@@ -6,10 +6,11 @@ namespace yade {
 
 class Scene;
 
-/// How fast the bodies of a scene move, for the choice of a time step. Values that are not finite count as 0.
+/// How fast the bodies of a scene move, for the choice of a time step, and how the cell and walls that our controllers drive may move in it.
+/// Values that are not finite count as 0.
 struct LargestRates {
-	Real speed = 0;			 // of a body's centre, without the mean field of a periodic cell [m/s]
-	Real acceleration = 0;	 // by gravity and permanent force [m/s2]
+	Real speed = 0;			 // of a body's centre, without the mean field of a periodic cell but with its strain over the smallest radius [m/s]
+	Real acceleration = 0;	 // by gravity and permanent force, of a wall and of the cell likewise by the stress prescribed [m/s2]
 	Real rotation = 0;		 // of a body or of the periodic cell; of the latter with its strain [1/s]
 	Real smallestRadius = 0; // of a sphere; 0 if there is none [m]
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Reach.hpp"
+#include "ContactDynamicsCellController.hpp"
+#include "ContactDynamicsTriaxialController.hpp"
 #include "ConvexShapes.hpp"
 #include <core/Body.hpp>
 #include <core/Cell.hpp>
@@ -53,14 +55,14 @@ Real turningRadius(const Shape& shape)
 }
 
 /// Speed the surface of the body may have in the coming step. A NaN counts as 0: the engine names the body that carries it.
-Real surfaceSpeed(const Scene& scene, const Body& body, Real radius, Real gravity)
+Real surfaceSpeed(const Scene& scene, const Body& body, Real radius, Real gravity, Real cellRate)
 {
 	const State& state = *body.state;
 	Vector3r vel = state.vel;
 	Real speed = 0;
 	if (scene.isPeriodic) {
 		vel -= scene.cell->velGrad * state.pos;
-		speed += scene.cell->velGrad.norm() * radius;
+		speed += cellRate * radius;
 	}
 	speed += vel.norm();
 	if (body.shape && state.angVel != Vector3r::Zero()) speed += state.angVel.norm() * turningRadius(*body.shape);
@@ -75,9 +77,15 @@ Real surfaceSpeed(const Scene& scene, const Body& body, Real radius, Real gravit
 Surroundings measureSpeeds(const Scene& scene)
 {
 	Surroundings around;
-	Real gravity = 0;
-	for (const auto& engine : scene.engines)
+	Real gravity = 0, cellRate = scene.isPeriodic ? scene.cell->velGrad.norm() : 0;
+	std::unordered_map<int, Real> driven;
+	for (const auto& engine : scene.engines) {
 		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) gravity = newton->gravity.norm();
+		if (const auto* cell = dynamic_cast<const ContactDynamicsCellController*>(engine.get()); cell && !cell->dead)
+			cellRate = std::max(cellRate, cell->outlook(scene).rate);
+		if (const auto* box = dynamic_cast<const ContactDynamicsTriaxialController*>(engine.get()); box && !box->dead)
+			for (const auto& wall : box->outlook(scene)) driven[wall.wall] = wall.speed;
+	}
 	around.speed.assign(scene.bodies->size(), 0);
 	around.radius.assign(scene.bodies->size(), 0);
 	around.margin.assign(scene.bodies->size(), 0);
@@ -91,7 +99,8 @@ Surroundings measureSpeeds(const Scene& scene)
 			around.margin[id] = (sphere ? marginOfRadius : marginOfPolyhedron) * radius;
 			around.smallestRadius = std::min(around.smallestRadius, radius);
 		}
-		const Real speed = surfaceSpeed(scene, *body, around.radius[id], gravity);
+		Real speed = surfaceSpeed(scene, *body, around.radius[id], gravity, cellRate);
+		if (const auto wall = driven.find(id); wall != driven.end() && std::isfinite(wall->second)) speed = std::max(speed, wall->second);
 		around.speed[id] = speed;
 		around.largestSpeed = std::max(around.largestSpeed, speed);
 		if (!(radius > 0)) around.boundarySpeed = std::max(around.boundarySpeed, speed);

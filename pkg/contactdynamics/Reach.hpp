@@ -14,7 +14,8 @@ class Scene;
 /// times its acceleration by gravity and permanent force, and S the largest s near the body. Why S: an inelastic collision hands on at most the speed
 /// of the faster body, and within one step the struck body may strike a third. Why only near it: one fast body must not make candidates of all
 /// neighbours in a large dense packing. "Near" is a coarse grid whose cells are several steps of the fastest body wide, see Reach.cpp. A velocity
-/// gradient of the periodic cell counts by the velocity difference it makes over r.
+/// gradient of the periodic cell counts by the velocity difference it makes over r. Cell and walls that a controller of ours drives count with the
+/// motion that they may have in the coming step, not only with that of the last one.
 namespace Reach {
 /// Reach of one body [m]; 0 when the time step is not positive (the engine refuses such a step).
 double ofBody(const Scene& scene, int id);

@@ -26,6 +26,24 @@ template <class Rows> void append(std::vector<double>& values, const Rows& rows)
 		for (int column = 0; column < rows.cols(); ++column) values.push_back(rows(row, column));
 }
 
+/// The field at the solution: a component that stands at its bound responds to no impulse.
+Matrix3 fieldMobility(const MeanField& field)
+{
+	const Matrix3 stretch = 0.5 * (field.gradient + field.gradient.transpose());
+	return (stretch.array().abs() < field.limit).select(field.inverseMass, 0);
+}
+
+/// Velocity L b of a contact at impulses r of another one, both in the frames of the contacts: dL = sym(r b^T) / M.
+Matrix3 throughField(const Matrix3& mobility, const Matrix3& frame, const Vector3& branch, const Matrix3& otherFrame, const Vector3& otherBranch)
+{
+	Matrix3 W;
+	for (int k = 0; k < 3; ++k) {
+		const Matrix3 moment = otherFrame.row(k).transpose() * otherBranch.transpose();
+		W.col(k) = frame * (mobility.cwiseProduct(0.5 * (moment + moment.transpose())) * branch);
+	}
+	return W;
+}
+
 } // namespace
 
 BlockProblem assembled(const GrainProblem& solved, const std::vector<Matrix3>& frames)
@@ -34,6 +52,7 @@ BlockProblem assembled(const GrainProblem& solved, const std::vector<Matrix3>& f
 	BlockProblem blocks;
 	blocks.rowStart.push_back(0);
 	std::map<std::int32_t, Matrix3> row;
+	const Matrix3 mobility = solved.meanField ? fieldMobility(*solved.meanField) : Matrix3(Matrix3::Zero());
 	for (std::size_t i = 0; i < solved.contacts.size(); ++i) {
 		const Contact& contact = solved.contacts[i];
 		row.clear();
@@ -55,6 +74,12 @@ BlockProblem assembled(const GrainProblem& solved, const std::vector<Matrix3>& f
 				}
 			}
 		}
+		if (!mobility.isZero(0))
+			for (std::size_t j = 0; j < solved.contacts.size(); ++j) {
+				const Contact& other = solved.contacts[j];
+				row.emplace(std::int32_t(j), Matrix3::Zero()).first->second +=
+						throughField(mobility, frames[i], contact.arm1 - contact.arm2, frames[j], other.arm1 - other.arm2);
+			}
 		const Vector3 r = frames[i] * contact.impulse;
 		const Vector3 u = frames[i] * contact.relativeVelocity + Vector3(contact.gapVelocity, 0, 0) + compliance.cwiseProduct(r);
 		Vector3 q = u;

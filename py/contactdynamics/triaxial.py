@@ -107,11 +107,16 @@ def shear(rate: float, axis: str = "z", resetStrain: bool = True) -> None:
 
 @dataclass(frozen=True)
 class Report:
-    """State of a triaxial box; stress in Pa, positive in tension."""
+    """State of a triaxial box; stress in Pa, positive in tension.
+
+    The held walls carry what the moving ones do less the change of the packing's momentum. That is nothing in the mean, but some per cent from step to
+    step while grains rearrange.
+    """
 
     size: Vector3  #: edges between the walls at the start of the last step [m]
     strain: Vector3  #: logarithmic strain along the axes [-]
     wallStress: Vector3  #: normal force between grains and walls over area along the axes, mean of the two walls
+    movingWallStress: Vector3  #: likewise, of the moving walls alone: along axes under stress the goal, but for the inertia of the wall
     imbalance: float  #: largest difference between two opposite walls over the largest wall stress [-]
     stress: Matrix3  #: stress tensor of all contacts, walls included, over the volume of the box
     packingFraction: float  #: volume of the grains over that of the box [-]
@@ -136,12 +141,14 @@ def report() -> Report:
     pressures = [_force(number)[place // 2] * (1, -1)[place % 2] * size[place // 2] / volume for place, number in enumerate(control.walls)]
     means = [0.5 * (pressures[2 * axis] + pressures[2 * axis + 1]) for axis in range(3)]
     differences = [abs(pressures[2 * axis] - pressures[2 * axis + 1]) for axis in range(3)]
+    moving = pressures[1::2]
     largest = max(abs(p) for p in pressures)
     grains = sum(4 / 3 * math.pi * b.shape.radius**3 for b in O.bodies if isinstance(b.shape, wrapper.Sphere))
     return Report(
         size=size,
         strain=Vector3(control.strain),
         wallStress=Vector3(*means),
+        movingWallStress=Vector3(*moving),
         imbalance=max(differences) / largest if largest > 0 else 0.0,
         stress=utils.getStress(volume),
         packingFraction=grains / volume,

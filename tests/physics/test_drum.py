@@ -3,33 +3,13 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
-from yade import O, HelixEngine, Quaternion, RotationEngine, Vector3, geom
+from yade import O, HelixEngine, RotationEngine, Vector3
 
 from scenes import G, cd, equip, grain, kinetic_energy, material, state, vec
-
-SPIN = 6.0  # rad/s
-R = 1.0
-
-
-def drum(balls: int, engine) -> tuple[list[int], list[int]]:
-    """A closed horizontal drum about the y axis, 24 sides with flat ends, and balls in it; returns both."""
-    material(friction=0.5)
-    upright = Quaternion(Vector3(1, 0, 0), math.pi / 2)
-    shell = O.bodies.append(geom.facetCylinder((0, 0, 0), R, 1.2, orientation=upright, segmentsNumber=24, material=O.materials[0]))
-    generator = np.random.default_rng(6)
-    inside = []
-    for k in range(balls):
-        place = np.array([k % 4 - 1.5, k // 4 % 3 - 1.0, k // 12 - 2.0]) * [0.28, 0.3, 0.28]
-        inside.append(grain(place + generator.uniform(-0.02, 0.02, 3), radius=generator.uniform(0.09, 0.12)))
-    equip(2e-3, tolerance=1e-6, maxIterations=5000)
-    O.engines = O.engines[:1] + [engine(shell)] + O.engines[1:]
-    O.trackEnergy = True
-    return shell, inside
-
+from vessels import DRUM as R
+from vessels import SPIN, drum
 
 ENGINES = {
     "turning": lambda ids: RotationEngine(ids=ids, rotationAxis=(0, 1, 0), angularVelocity=SPIN, rotateAroundZero=True),

@@ -2,6 +2,7 @@
 // A velocity gradient shared by all bodies: closed forms, the certificate against a second implementation, and convergence whatever its inertia.
 #include "IndependentResidual.hpp"
 #include "Scenes.hpp"
+#include "pkg/solver/AssembledGrains.hpp"
 #include "pkg/solver/SignoriniCoulombSolver.hpp"
 
 #include <gtest/gtest.h>
@@ -135,6 +136,46 @@ TEST(MeanField, VirtualWork)
 		work += 0.5 * c.impulse.dot(start + c.relativeVelocity);
 	}
 	EXPECT_NEAR(energy(problem) - energy(free), work, 1e-12 * energy(free));
+}
+
+TEST(MeanField, ExplicitOperatorIsThatOfTheWholeProblem)
+{
+	// u = W r + q, q from the free velocities of bodies and field; with a component at its bound, which W leaves out, the others tell.
+	for (const double limit : {std::numeric_limits<double>::infinity(), 0.02}) {
+		GrainProblem problem = scenes::heap(4, 3, 0.4, false, true);
+		problem.meanField = field(meanMomentOfMass(problem), -0.5 * Matrix3::Identity());
+		problem.meanField->limit = limit;
+		const GrainProblem free = problem;
+		SignoriniCoulombSolver solver;
+		SolverOptions options = tight(1e-8);
+		options.maxIterations = 2000;
+		solver.solve(problem, options);
+		std::vector<Matrix3> frames;
+		for (const Contact& c : problem.contacts) {
+			Matrix3 frame;
+			frame << c.normal.transpose(), c.normal.unitOrthogonal().transpose(), c.normal.cross(c.normal.unitOrthogonal()).transpose();
+			frames.push_back(frame);
+		}
+		const BlockProblem blocks = assembled(problem, frames);
+		Matrix3 gradient = free.meanField->gradient;
+		int bounded = 0;
+		for (int i = 0; i < 9; ++i)
+			if (std::abs(problem.meanField->gradient(i / 3, i % 3)) >= limit) {
+				gradient(i / 3, i % 3) = problem.meanField->gradient(i / 3, i % 3);
+				++bounded;
+			}
+		EXPECT_EQ(bounded > 0, limit < 1);
+		double largest = 0;
+		for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+			const Contact& c = problem.contacts[i];
+			const Body &b1 = free.bodies[c.body1], &b2 = free.bodies[c.body2];
+			const Vector3 start = b2.velocity - b1.velocity + b2.angularVelocity.cross(c.arm2) - b1.angularVelocity.cross(c.arm1) +
+								  gradient * (c.arm1 - c.arm2);
+			const Vector3 q = frames[i] * start + Vector3(c.gapVelocity, 0, 0), found(blocks.q[3 * i], blocks.q[3 * i + 1], blocks.q[3 * i + 2]);
+			largest = std::max(largest, (q - found).cwiseAbs().maxCoeff());
+		}
+		EXPECT_LT(largest, 1e-11); // round-off of sums over all contacts, of velocities of order 1
+	}
 }
 
 TEST(MeanField, SameBitsForAnyNumberOfThreads)

@@ -365,8 +365,57 @@ def test_step_that_would_strain_the_cell_too_far() -> None:
     steps(2)
 
 
-def test_no_sparse_problem_to_show() -> None:
-    dense()
-    steps(1)
-    with pytest.raises(RuntimeError, match="ContactDynamicsCellController"):
+@pytest.mark.parametrize("rate", [float("inf"), 0.05])
+def test_problem_with_the_motion_of_the_cell_in_it(rate: float) -> None:
+    """W that lastProblem() writes out is symmetric, without negative eigenvalues, and its diagonal blocks hold the cell: two impulses, two velocities.
+
+    The change of velocity between two steps' impulses cannot be made by hand; so W r is compared with the response of bodies and cell to r, each
+    taken from YADE's own masses, positions and cell.
+    """
+    c = dense(tolerance=1e-8, maxStrainRate=rate)
+    steps(25)
+    places = {b.id: vec(b.state.pos) for b in O.bodies}
+    O.step()
+    problem = cd().lastProblem()
+    n = len(problem["friction"])
+    W = np.zeros((3 * n, 3 * n))
+    for i in range(n):
+        for k in range(problem["rowStart"][i], problem["rowStart"][i + 1]):
+            j = problem["column"][k]
+            W[3 * i : 3 * i + 3, 3 * j : 3 * j + 3] = np.reshape(problem["blocks"][9 * k : 9 * k + 9], (3, 3))
+    size = np.abs(W).max()
+    np.testing.assert_allclose(W, W.T, rtol=0, atol=1e-13 * size)
+    assert np.linalg.eigvalsh(W).min() > -1e-12 * np.abs(W).sum(axis=1).max()
+    # A pair of plain spheres: 1/m1 + 1/m2 + n' (n n' b^2 / M) n along its normal n, of the components that yield.
+    strain = 0.5 * (matrix(O.cell.velGrad) + matrix(O.cell.velGrad).T)
+    free = free_components(7) & (np.abs(strain) < rate * (1 - 1e-9))
+    assert free.any() != (rate < 1)
+    plain = 0
+    for i in contacts():
+        pair = (min(i.id1, i.id2), max(i.id1, i.id2))
+        if any(O.bodies[k].isClumpMember or O.bodies[k].aspherical for k in pair):
+            continue
+        branch = places[i.id2] + vec(O.cell.hSize * Vector3(*i.cellDist)) - places[i.id1]
+        normal = branch / np.linalg.norm(branch)
+        expected = 1 / state(i.id1).mass + 1 / state(i.id2).mass
+        expected += normal @ (np.where(free, np.outer(normal, branch), 0) @ branch) / c.inertiaInUse
+        rows = [k for k, bodies in enumerate(problem["bodies"]) if tuple(sorted(bodies)) == pair]
+        for k in rows:  # none where the two cannot close in the step
+            assert W[3 * k, 3 * k] == pytest.approx(expected, rel=1e-9), pair
+            plain += 1
+    assert plain > 50
+
+
+def test_problem_too_large_to_be_full() -> None:
+    """Some 1,100 contacts: refused with their number."""
+    O.periodic = True
+    O.cell.setBox(16, 16, 16)
+    material(friction=0.4)
+    for k in range(512):
+        grain((2 * (k % 8) + 1, 2 * (k // 8 % 8) + 1, 2 * (k // 64) + 1))
+    equip(1e-3, gravity=(0, 0, 0))
+    control(stress=GOAL)
+    steps(2)
+    assert cd().contacts > 1000
+    with pytest.raises(RuntimeError, match=f"at most 1000 contacts, and there are {cd().contacts}"):
         cd().lastProblem()

@@ -9,6 +9,7 @@ import pytest
 from yade import MatchMaker, O
 
 import saving_cases
+from halves import same_bits
 from scenes import cd, engine, equip, floor, grain, isolated, material, steps, vec
 from test_classes import DEFAULTS, FUNCTORS, OF_CONTACT
 
@@ -46,6 +47,11 @@ def test_same_bits_of_a_turning_mesh(tmp_path) -> None:
     isolated("yade", "saving_mesh_cases", "first", tmp_path / "half.xml")
     isolated("yade", "saving_mesh_cases", "to_the_end", tmp_path / "second", tmp_path / "half.xml", threads=2)
     assert (tmp_path / "second").read_text() == expected
+
+
+@pytest.mark.parametrize("vessel", ["hopper", "drum"])
+def test_same_bits_of_a_vessel(vessel: str, tmp_path) -> None:
+    same_bits(f"{vessel}_cases", tmp_path)
 
 
 @pytest.mark.parametrize("ending", [".xml", ".xml.bz2", ".yade", ".yade.gz"])
