@@ -7,7 +7,7 @@ import math
 import warnings
 from typing import Any
 
-from yade import KinematicEngine, NewtonIntegrator, O, PeriodicEngine, Sphere, TimeStepper, utils
+from yade import KinematicEngine, NewtonIntegrator, O, PeriodicEngine, Sphere, TimeStepper, Vector3, utils
 
 from . import ContactDynamicsEngine
 
@@ -30,10 +30,10 @@ def takeOver(engines: list, dt: float, settle: int | None = None) -> int:
     by its elastic forces loses its hold. In a step of time it would fall. So a packing at rest under gravity is settled at once and quasi-statically:
     overlaps are repaired while all bodies are stopped after every step, too short a one for any to pass 1 % of the speed of a fall over one diameter;
     then what has lost its hold goes down to its next place at a limited pace, and each body is stopped when it gets slower. All bodies are at rest afterwards.
-    These steps are numerical means, not a motion in time: engines that drive bodies (:yref:`KinematicEngine`), choose the time step or run now
-    and then (:yref:`PeriodicEngine`: recorders, ``PyRunner``) wait until they are over; ``O.time`` and ``O.iter`` count them.
-    Not settled by default are a scene that moves (a body faster than that 1 %, or a periodic cell with a velocity gradient), one without gravity or
-    spheres, and ``repairRate=0``: there positions and velocities stay as they are.
+    These steps are numerical means, not a motion in time: engines that drive bodies (``KinematicEngine``), choose the time step or run now
+    and then (``PeriodicEngine``: recorders, ``PyRunner``) wait until they are over; ``O.time`` and ``O.iter`` count them.
+    Not settled by default are a scene that moves (a body faster than that 1 %, or a periodic cell with a velocity gradient) or is not in equilibrium (a tenth
+    of the weight not carried by contacts), one without gravity or spheres, and ``repairRate=0``: there positions and velocities stay as they are.
 
     :param engines: the new engine list, for example ``contactdynamics.engines()``
     :param dt: the new time step [s], > 0
@@ -46,19 +46,18 @@ def takeOver(engines: list, dt: float, settle: int | None = None) -> int:
     if settle is not None and settle < 0:
         raise ValueError(f"settle = {settle!r}: the number of steps must not be negative")
     forces = {}
-    if not O.periodic:
-        for contact in O.interactions:
-            if contact.isReal and hasattr(contact.phys, "shearForce"):
-                forces[contact.id1, contact.id2] = contact.phys.normalForce + contact.phys.shearForce
+    for contact in O.interactions:
+        if contact.isReal and hasattr(contact.phys, "shearForce"):
+            forces[contact.id1, contact.id2] = contact.phys.normalForce + contact.phys.shearForce
     O.interactions.clear()
     O.engines = engines
     O.dt = dt
     settling = _Settling()
     if settle is None:
-        settle = _LONGEST if settling.wanted() else 0
+        settle = _LONGEST if settling.wanted(forces) else 0
     if settle > 0:
         O.dt = settling.step(_REPAIR)
-    taken = sum(_start(pair, force * O.dt) for pair, force in forces.items())
+    taken = 0 if O.periodic else sum(_start(pair, force * O.dt) for pair, force in forces.items())
     if settle > 0:
         settling.run(settle)
     return taken
@@ -79,18 +78,31 @@ class _Settling:
     def __init__(self) -> None:
         self.dt, self.engines = O.dt, O.engines
         self.solver = next((e for e in self.engines if isinstance(e, ContactDynamicsEngine)), None)
-        self.gravity = max((e.gravity.norm() for e in self.engines if isinstance(e, NewtonIntegrator)), default=0.0)
+        self.fall = sum((e.gravity for e in self.engines if isinstance(e, NewtonIntegrator)), Vector3(0, 0, 0))
+        self.gravity = self.fall.norm()
         self.radius = min((b.shape.radius for b in O.bodies if isinstance(b.shape, Sphere)), default=0.0)
         self.speed = math.sqrt(self.gravity * self.radius)
         self.free = [b for b in O.bodies if b.dynamic and not b.isClumpMember]
 
-    def wanted(self) -> bool:
-        """Whether the scene is at rest under gravity and its overlaps are to be repaired."""
+    def wanted(self, forces: dict[tuple[int, int], Vector3]) -> bool:
+        """Whether the scene is at rest under gravity, held by these forces of its contacts, and its overlaps are to be repaired."""
         if self.speed == 0 or self.solver is None or self.solver.repairRate == 0:
             return False
         if O.periodic and O.cell.velGrad.norm() > 0:
             return False
-        return all(b.state.vel.norm() <= 0.01 * 2 * self.speed for b in O.bodies)
+        return all(b.state.vel.norm() <= 0.01 * 2 * self.speed for b in O.bodies) and self._hanging(forces) < 0.1
+
+    def _hanging(self, forces: dict[tuple[int, int], Vector3]) -> float:
+        """What is missing to equilibrium, over the weight of all free bodies: 1 for bodies in the air."""
+        load = {body.id: body.state.mass * self.fall for body in self.free}
+        weight = sum(each.norm() for each in load.values())
+        for pair, force in forces.items():
+            for number, sign in zip(pair, (-1, 1)):
+                body = O.bodies[number]
+                number = body.clumpId if body.isClumpMember else number
+                if number in load:
+                    load[number] += sign * force
+        return sum(each.norm() for each in load.values()) / weight if weight > 0 else 1.0
 
     def step(self, units: float) -> float:
         """A time step, at most that of the scene; the latter, where nothing gives a scale."""
