@@ -118,8 +118,10 @@ TEST(UnderAttack, GapAgreesWithCgalAndFrameIsFinite)
 			ASSERT_TRUE(point.place.allFinite() && std::isfinite(point.gap)) << "pair " << i;
 			least = std::min(least, point.gap);
 		}
-		// The nearest of the points is at the distance of the bodies, whatever pair of features it is.
-		ASSERT_NEAR(least, truth, 1e-8 * pair.size)
+		// The nearest of the points is at the distance of the bodies, whatever pair of features it is; where two edges run one above the other,
+		// parallel to less than that, its far end may stand for it.
+		const double missed = contactdynamics::steady * std::min(one.shape->radius, two.shape->radius);
+		ASSERT_NEAR(least, truth, missed + 1e-8 * pair.size)
 				<< "pair " << i << " feature " << found.separation.feature.kind << " points " << found.points.size();
 	}
 	RecordProperty("worst", std::to_string(worst));
