@@ -183,12 +183,18 @@ Separation findManifold(const PlacedShape& one, const PlacedShape& two, double r
 		laid.crossings();
 		return separation;
 	};
+	// The nearest of the points is at the distance of the bodies. For two plates side by side in one plane round-off may hide it: seen from the edge
+	// they are lines.
+	const double close = steady * std::min(one.shape->radius, two.shape->radius);
+	const auto seesNearest = [&](const Separation& separation) {
+		return std::any_of(points.begin(), points.end(), [&](const ManifoldPoint& point) { return point.gap <= separation.gap + close; });
+	};
 	Separation separation = overlay(last);
-	if (separation.gap > reach || !points.empty()) return separation;
-	// The direction of the last step sees the bodies side by side now; then that of this step.
+	if (separation.gap > reach || seesNearest(separation)) return separation;
+	// The direction of the last step may see the bodies side by side now; then that of this step.
 	if (last.kind != DecidingFeature::none) separation = overlay({});
 	// They touch at a corner of both, within round-off.
-	if (points.empty()) points.push_back({separation.witness, separation.gap, featureOfEdges(0x3fff, 0x3fff)});
+	if (!seesNearest(separation)) points.push_back({separation.witness, separation.gap, featureOfEdges(0x3fff, 0x3fff)});
 	return separation;
 }
 

@@ -20,8 +20,9 @@ constexpr std::int32_t featureOfEdges(std::int32_t edge1, std::int32_t edge2) { 
 ///
 /// Seen along the normal of separate(), the upper surface of the first and the lower surface of the second are laid over each other. Where both
 /// are, the gap is a convex function, linear over each piece of the overlay: so the corners of the overlay (vertices of either body, crossings of
-/// edges) carry all there is to know. For two parallel faces these are the corners of the polygon they share, all of them, so no part of the support
-/// is lost; other pairs of features give one point or two. Neither body is the reference.
+/// edges) carry all there is to know; the nearest of them is at the distance of the bodies, but for `steady` times the smaller radius. For two
+/// parallel faces these are the corners of the polygon they share, all of them, so no part of the support is lost; other pairs of features give one
+/// point or two. Neither body is the reference.
 ///
 /// @param reach   corners with a larger gap are left out; no points at all when the bodies are further apart [m]
 /// @param last    feature of the step before, see separate()

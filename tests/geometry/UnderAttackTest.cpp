@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Random pairs of shapes of every awkward kind against CGAL. The quick run has 1,500 pairs; CONTACTDYNAMICS_ATTACKS=100000 makes the long one.
+// Random pairs of shapes of every awkward kind against CGAL. The quick run has 1,500 pairs; CONTACTDYNAMICS_ATTACKS=100000 makes the long one,
+// CONTACTDYNAMICS_FIRST_ATTACK=50000 its second half.
 #include "Bodies.hpp"
 #include "IndependentDistance.hpp"
 
@@ -16,6 +17,13 @@ int attacks()
 {
 	const char* asked = std::getenv("CONTACTDYNAMICS_ATTACKS");
 	return asked ? std::atoi(asked) : 1500;
+}
+
+/// Pairs before it are made, so that the others are the same, but not looked at.
+int firstAttack()
+{
+	const char* asked = std::getenv("CONTACTDYNAMICS_FIRST_ATTACK");
+	return asked ? std::atoi(asked) : 0;
 }
 
 ConvexShape anyShape(Random& random)
@@ -96,6 +104,7 @@ TEST(UnderAttack, GapAgreesWithCgalAndFrameIsFinite)
 	int touching = 0, apart = 0;
 	for (int i = 0; i < pairs; i++) {
 		const Pair pair = anyPair(random);
+		if (i < firstAttack()) continue;
 		const PlacedShape one = placed(pair.shape1, pair.position1, pair.rotation1), two = placed(pair.shape2, pair.position2, pair.rotation2);
 		const Found found = contact(one, two, 10 * pair.size);
 		const double truth = independentDistance(one.vertices, two.vertices);
@@ -109,8 +118,10 @@ TEST(UnderAttack, GapAgreesWithCgalAndFrameIsFinite)
 			ASSERT_TRUE(point.place.allFinite() && std::isfinite(point.gap)) << "pair " << i;
 			least = std::min(least, point.gap);
 		}
-		// The nearest of the points is at the distance of the bodies, whatever pair of features it is.
-		ASSERT_NEAR(least, truth, 1e-8 * pair.size)
+		// The nearest of the points is at the distance of the bodies, whatever pair of features it is; where two edges run one above the other,
+		// parallel to less than that, its far end may stand for it.
+		const double missed = contactdynamics::steady * std::min(one.shape->radius, two.shape->radius);
+		ASSERT_NEAR(least, truth, missed + 1e-8 * pair.size)
 				<< "pair " << i << " feature " << found.separation.feature.kind << " points " << found.points.size();
 	}
 	RecordProperty("worst", std::to_string(worst));
@@ -122,6 +133,7 @@ TEST(UnderAttack, SymmetricUnderExchange)
 	Random random(77);
 	for (int i = 0; i < attacks(); i++) {
 		const Pair pair = anyPair(random);
+		if (i < firstAttack()) continue;
 		const PlacedShape one = placed(pair.shape1, pair.position1, pair.rotation1), two = placed(pair.shape2, pair.position2, pair.rotation2);
 		const double reach = 0.05 * pair.size;
 		const Found there = contact(one, two, reach), back = contact(two, one, reach);
