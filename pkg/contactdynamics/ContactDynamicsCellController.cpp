@@ -16,8 +16,6 @@ namespace yade {
 YADE_PLUGIN((ContactDynamicsCellController));
 
 namespace {
-constexpr Real largestStrain = 0.5; // of a step [-]: beyond, pairs in contact are no longer those the collider found
-
 std::string entry(const char* matrix, int row, int column) { return std::string(matrix) + '[' + "012"[row] + ',' + "012"[column] + ']'; }
 void requireFinite(const char* name, const Matrix3r& matrix)
 {
@@ -88,7 +86,8 @@ ContactDynamicsCellController::Outlook ContactDynamicsCellController::outlook(co
 	for (int i = 0; i < 3; i++)
 		for (int j = 0; j < 3; j++) {
 			if (!controlsStress(i, j)) continue;
-			const Real stretch = 0.5 * (now(i, j) + now(j, i)) + scene.dt * perStress * (stress(i, j) - 0.5 * (currentStress(i, j) + currentStress(j, i)));
+			const Real stretch =
+					0.5 * (now(i, j) + now(j, i)) + scene.dt * perStress * (stress(i, j) - 0.5 * (currentStress(i, j) + currentStress(j, i)));
 			gradient(i, j) = std::clamp(stretch, -maxStrainRate, maxStrainRate) + 0.5 * (velGrad(i, j) - velGrad(j, i));
 			push(i, j) = perStress * stress(i, j);
 		}

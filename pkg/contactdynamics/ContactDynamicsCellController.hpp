@@ -31,6 +31,7 @@ public:
 		Real acceleration = 0; ///< norm of its rate of change if they do not resist at all [1/s2]
 	};
 	Outlook outlook(const Scene& scene) const;
+	static constexpr Real largestStrain = 0.5; ///< of a step [-]: beyond, pairs in contact are no longer those the collider found
 	/// @throws std::runtime_error  with the gradient of the coming step a movable body would reach over half of the cell, and so touch another one
 	///         twice, or itself
 	static void requireRoom(const Scene& scene, const Matrix3r& gradient);

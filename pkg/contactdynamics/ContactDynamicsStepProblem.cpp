@@ -37,7 +37,8 @@ contactdynamics::BlockProblem ContactDynamicsStep::assembledProblem(const char* 
 		frames[i] = sign * localFrame(sign * grains.contacts[i].normal);
 	}
 	contactdynamics::BlockProblem blocks = contactdynamics::assembled(grains, frames);
-	if (shifted.empty() && !problem.meanField) // then nothing but gravity and other known forces is in q: from these, and not from u - W r, for an independent check
+	if (shifted.empty() &&
+		!problem.meanField) // then nothing but gravity and other known forces is in q: from these, and not from u - W r, for an independent check
 		for (std::size_t i = 0; i < frames.size(); i++) {
 			const contactdynamics::Contact& contact = grains.contacts[i];
 			Eigen::Map<Vector3r>(&blocks.q[3 * i]) =

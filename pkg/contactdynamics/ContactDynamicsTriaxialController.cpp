@@ -142,6 +142,14 @@ void ContactDynamicsTriaxialController::press(int axis, Real area)
 	state.blockedDOFs = State::DOF_ALL & ~State::axisDOF(axis);
 	state.mass = wallMassInUse;
 	const Real fastest = maxStrainRate * size[axis], h = scene->dt;
+	const Real lightest = 4 * h * h * std::abs(stress[axis]) * area / size[axis];
+	if (wallMassInUse < lightest) {
+		std::ostringstream message;
+		message << "ContactDynamicsTriaxialController.wallMass: with " << wallMassInUse << " kg, wall #" << body.getId()
+				<< " would be carried by its force over more than a quarter of the box in one step of O.dt = " << h
+				<< " as soon as nothing resists; at least " << lightest << " kg are needed, or a smaller O.dt.";
+		throw std::runtime_error(message.str());
+	}
 	// Without the resistance a light wall would never be pressed with more than its own mass can take in a step, however slowly it moves. Twice:
 	// then the force grows to the goal within a few steps, and what grains that settle take off for a moment does not weaken the next step.
 	const Real force = std::max(stress[axis] * area, wallMassInUse * (-fastest - state.vel[axis]) / h - 2 * resistance(body, axis));

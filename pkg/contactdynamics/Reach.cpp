@@ -82,7 +82,7 @@ Surroundings measureSpeeds(const Scene& scene)
 	for (const auto& engine : scene.engines) {
 		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) gravity = newton->gravity.norm();
 		if (const auto* cell = dynamic_cast<const ContactDynamicsCellController*>(engine.get()); cell && !cell->dead)
-			cellRate = std::max(cellRate, cell->outlook(scene).rate);
+			cellRate = std::max(cellRate, std::min(cell->outlook(scene).rate, cell->largestStrain / scene.dt)); // more is refused
 		if (const auto* box = dynamic_cast<const ContactDynamicsTriaxialController*>(engine.get()); box && !box->dead)
 			for (const auto& wall : box->outlook(scene)) driven[wall.wall] = wall.speed;
 	}

@@ -119,7 +119,7 @@ class Report:
     movingWallStress: Vector3  #: likewise, of the moving walls alone: along axes under stress the goal, but for the inertia of the wall
     imbalance: float  #: largest difference between two opposite walls over the largest wall stress [-]
     stress: Matrix3  #: stress tensor of all contacts, walls included, over the volume of the box
-    packingFraction: float  #: volume of the grains over that of the box [-]
+    packingFraction: float  #: volume of the grains (spheres, polyhedra; members of clumps in full) over that of the box [-]
 
     @property
     def mobilisedFriction(self) -> float:
@@ -143,7 +143,7 @@ def report() -> Report:
     differences = [abs(pressures[2 * axis] - pressures[2 * axis + 1]) for axis in range(3)]
     moving = pressures[1::2]
     largest = max(abs(p) for p in pressures)
-    grains = sum(4 / 3 * math.pi * b.shape.radius**3 for b in O.bodies if isinstance(b.shape, wrapper.Sphere))
+    grains = sum(_volume(b.shape) for b in O.bodies)
     return Report(
         size=size,
         strain=Vector3(control.strain),
@@ -153,6 +153,13 @@ def report() -> Report:
         stress=utils.getStress(volume),
         packingFraction=grains / volume,
     )
+
+
+def _volume(shape: Any) -> float:
+    """Volume of a sphere or polyhedron [m3], 0 of anything else. Members of a clump that overlap count in full."""
+    if isinstance(shape, wrapper.Sphere):
+        return 4 / 3 * math.pi * shape.radius**3
+    return shape.GetVolume() if isinstance(shape, wrapper.Polyhedra) else 0.0
 
 
 def _force(number: int) -> Vector3:

@@ -169,8 +169,8 @@ TEST(MeanField, ExplicitOperatorIsThatOfTheWholeProblem)
 		for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
 			const Contact& c = problem.contacts[i];
 			const Body &b1 = free.bodies[c.body1], &b2 = free.bodies[c.body2];
-			const Vector3 start = b2.velocity - b1.velocity + b2.angularVelocity.cross(c.arm2) - b1.angularVelocity.cross(c.arm1) +
-								  gradient * (c.arm1 - c.arm2);
+			const Vector3 start =
+					b2.velocity - b1.velocity + b2.angularVelocity.cross(c.arm2) - b1.angularVelocity.cross(c.arm1) + gradient * (c.arm1 - c.arm2);
 			const Vector3 q = frames[i] * start + Vector3(c.gapVelocity, 0, 0), found(blocks.q[3 * i], blocks.q[3 * i + 1], blocks.q[3 * i + 2]);
 			largest = std::max(largest, (q - found).cwiseAbs().maxCoeff());
 		}

@@ -365,6 +365,21 @@ def test_step_that_would_strain_the_cell_too_far() -> None:
     steps(2)
 
 
+def test_cell_that_becomes_too_narrow_for_a_body() -> None:
+    """YADE would let the ball pass through its own image without a word."""
+    O.periodic = True
+    O.cell.setBox(5, 5, 5)
+    material()
+    ball = grain((1, 1, 1), radius=1.2)
+    equip(1e-3, gravity=(0, 0, 0))
+    c = control(stressMask=0)
+    steps(1)
+    c.velGrad = Matrix3(0, 0, 0, 0, -60, 0, 0, 0, 0)
+    refused(f"#{ball}", "diameter 2.4", "edge 1", "more bodies")
+    c.velGrad = Matrix3(0, 0, 0, 0, 20, 0, 0, 0, 0)
+    steps(2)
+
+
 @pytest.mark.parametrize("rate", [float("inf"), 0.05])
 def test_problem_with_the_motion_of_the_cell_in_it(rate: float) -> None:
     """W that lastProblem() writes out is symmetric, without negative eigenvalues, and its diagonal blocks hold the cell: two impulses, two velocities.

@@ -205,7 +205,7 @@ def test_blocks_that_touch_at_many_points(tmp_path: Path) -> None:
     assert matrix(utils.getStress(3.0)) == pytest.approx(total_moment / 3, abs=1e-8 * w)
     assert matrix(utils.fabricTensor(extrema=[Vector3(-9, -9, -9), Vector3(9, 9, 9)])[0]) == pytest.approx(np.diag([0, 0, 1]), abs=1e-12)
     assert vec(utils.forcesOnPlane(Vector3(0, 0, 1), Vector3(0, 0, 1))) == pytest.approx(on_upper, abs=1e-8 * w)
-    VTKRecorder(fileName=str(tmp_path / "b-"), recorders=["intr"], ascii=True, compress=False)()
+    VTKRecorder(fileName=str(tmp_path / "b-"), recorders=["intr"], ascii=True, compress=False, skipFacetIntr=False)()
     assert np.sort(vtk_arrays(next(tmp_path.glob("b-intrs.*.vtp")))["forceN"].ravel()) == pytest.approx([w, 2 * w], rel=1e-6)
 
 

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from yade import O, Vector3, utils, wrapper
+from yade import Matrix3, O, Vector3, utils, wrapper
 
 import contactdynamics
 from scenes import EPS, G, cd, contact, equip, floor, grain, material, overlaps, state, steps, vec
@@ -47,6 +47,31 @@ def test_rotation_and_cell() -> None:
     stepper = _equip(maxRotation=0.3)
     O.step()
     assert O.dt == pytest.approx(0.3 / 20, rel=4 * EPS) and stepper.limitedBy == "rotation"
+
+
+def test_cell_under_stress_takes_no_step_too_far() -> None:
+    """A gas of balls is compressed by a prescribed stress: the step follows the strain that is to come, and no pair is met too late.
+
+    Relative displacement of two touching balls in a step: strain times the sum of their radii, at most twice maxDisplacement of the smaller radius.
+    """
+    generator = np.random.default_rng(1)
+    O.periodic = True
+    O.cell.setBox(10, 10, 10)
+    material()
+    for k in range(64):
+        grain(2.5 * np.array([k % 4 + 0.5, k // 4 % 4 + 0.5, k // 16 + 0.5]) + generator.uniform(-0.02, 0.02, 3), radius=generator.uniform(0.9, 1))
+    _equip()
+    control = contactdynamics.ContactDynamicsCellController(stress=Matrix3(-1e6, 0, 0, 0, -1e6, 0, 0, 0, -1e6), maxStrainRate=3.0)
+    O.engines = O.engines[:-2] + [control] + O.engines[-2:]
+    O.dt = 1e-3
+    deepest = largest = 0.0
+    for _ in range(120):
+        O.step()
+        deepest, largest = max(deepest, cd().maxPenetration), max(largest, O.dt * O.cell.velGrad.norm())
+    assert 0.005 < largest <= 0.25 * (1 + 1e-9)
+    # The direction of a contact turns by up to a quarter in such a step; what is left of that is of second order in it.
+    assert deepest < 0.25**2
+    assert cd().activeContacts > 100
 
 
 def test_fixed_distance_of_detection() -> None:
