@@ -44,8 +44,9 @@ ContactDynamicsPhys* contactDynamicsPhys(const Interaction& interaction)
 }
 
 /// The parts of an interaction with several points; null in any other.
-ContactDynamicsManifoldPhys* manifoldPhys(const Interaction& interaction)
+ContactDynamicsManifoldPhys* manifoldPhys(const Interaction& interaction, const ContactDynamicsPhys& phys)
 {
+	if (typeid(phys) == typeid(ContactDynamicsPhys)) return nullptr; // the common case
 	return dynamic_cast<ManifoldGeom*>(interaction.geom.get()) ? dynamic_cast<ContactDynamicsManifoldPhys*>(interaction.phys.get()) : nullptr;
 }
 
@@ -131,25 +132,28 @@ void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 		const auto& body = (*scene.bodies)[id];
 		if (!body) return;
 		for (const auto& other : body->intrs) {
-			if (other.first <= id || other.first >= static_cast<int>(views.size()) || !views[other.first].state ||
-				!contactDynamicsPhys(*other.second))
-				continue;
+			if (other.first <= id || other.first >= static_cast<int>(views.size()) || !views[other.first].state) continue;
 			Interaction& interaction = *other.second;
-			gathered[omp_get_thread_num()].push_back(&interaction);
-			if (auto* manifold = manifoldPhys(interaction))
-				manifold->followPoints(static_cast<const ManifoldGeom&>(*interaction.geom), body->state->pos);
+			ContactDynamicsPhys* phys = contactDynamicsPhys(interaction);
+			if (!phys) continue;
+			auto* manifold = manifoldPhys(interaction, *phys);
+			gathered[omp_get_thread_num()].push_back({&interaction, phys, manifold});
+			if (manifold) manifold->followPoints(static_cast<const ManifoldGeom&>(*interaction.geom), body->state->pos);
 		}
 	});
 	links.clear();
 	manifolds.clear();
+	std::size_t points = 0;
+	for (const auto& ofThread : gathered)
+		for (const Gathered& one : ofThread) points += one.manifold ? one.manifold->ofPoint.size() : 1;
+	links.reserve(points); // growth by doubling would keep twice the memory
 	const auto link = [this](Interaction* interaction, ContactDynamicsPhys* phys, int point) {
 		links.push_back({interaction, phys, false, true, Vector3r::Zero(), Vector3r::Zero(), 0, point});
 	};
 	for (const auto& ofThread : gathered)
-		for (Interaction* interaction : ofThread) {
-			auto* manifold = manifoldPhys(*interaction);
+		for (const auto& [interaction, phys, manifold] : ofThread) {
 			if (!manifold) {
-				link(interaction, contactDynamicsPhys(*interaction), -1);
+				link(interaction, phys, -1);
 				continue;
 			}
 			manifolds.push_back({static_cast<ManifoldGeom*>(interaction->geom.get()), manifold});
