@@ -44,8 +44,9 @@ ContactDynamicsPhys* contactDynamicsPhys(const Interaction& interaction)
 }
 
 /// The parts of an interaction with several points; null in any other.
-ContactDynamicsManifoldPhys* manifoldPhys(const Interaction& interaction)
+ContactDynamicsManifoldPhys* manifoldPhys(const Interaction& interaction, const ContactDynamicsPhys& phys)
 {
+	if (typeid(phys) == typeid(ContactDynamicsPhys)) return nullptr; // the common case
 	return dynamic_cast<ManifoldGeom*>(interaction.geom.get()) ? dynamic_cast<ContactDynamicsManifoldPhys*>(interaction.phys.get()) : nullptr;
 }
 
@@ -131,37 +132,37 @@ void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 		const auto& body = (*scene.bodies)[id];
 		if (!body) return;
 		for (const auto& other : body->intrs) {
-			if (other.first <= id || other.first >= static_cast<int>(views.size()) || !views[other.first].state ||
-				!contactDynamicsPhys(*other.second))
-				continue;
+			if (other.first <= id || other.first >= static_cast<int>(views.size()) || !views[other.first].state) continue;
 			Interaction& interaction = *other.second;
-			gathered[omp_get_thread_num()].push_back(&interaction);
+			if (ContactDynamicsPhys* phys = contactDynamicsPhys(interaction))
+				gathered[omp_get_thread_num()].push_back({&interaction, phys, manifoldPhys(interaction, *phys)});
 		}
 	});
 	settleBlockSeamsOf(scene);
-	links.clear();
 	manifolds.clear();
 	for (const auto& ofThread : gathered)
-		for (Interaction* interaction : ofThread)
-			if (auto* phys = manifoldPhys(*interaction))
-				manifolds.push_back({static_cast<ManifoldGeom*>(interaction->geom.get()), phys, interaction});
+		for (const auto& [interaction, phys, manifold] : ofThread)
+			if (manifold) manifolds.push_back({static_cast<ManifoldGeom*>(interaction->geom.get()), manifold, interaction});
 	parallelLoop(static_cast<long>(manifolds.size()), [&](long i) {
 		const Interaction& interaction = *manifolds[i].interaction;
 		const int smaller = std::min(interaction.getId1(), interaction.getId2());
 		manifolds[i].phys->followPoints(*manifolds[i].geom, views[smaller].state->pos);
 	});
+	links.clear();
+	std::size_t points = 0;
+	for (const auto& ofThread : gathered)
+		for (const Gathered& one : ofThread) points += one.manifold ? one.manifold->ofPoint.size() : 1;
+	links.reserve(points); // growth by doubling would keep twice the memory
 	const auto link = [this](Interaction* interaction, ContactDynamicsPhys* phys, int point) {
 		links.push_back({interaction, phys, false, true, Vector3r::Zero(), Vector3r::Zero(), 0, point});
 	};
-	std::size_t manifold = 0;
 	for (const auto& ofThread : gathered)
-		for (Interaction* interaction : ofThread) {
-			if (manifold == manifolds.size() || manifolds[manifold].interaction != interaction) {
-				link(interaction, contactDynamicsPhys(*interaction), -1);
+		for (const auto& [interaction, phys, manifold] : ofThread) {
+			if (!manifold) {
+				link(interaction, phys, -1);
 				continue;
 			}
-			const auto& points = manifolds[manifold++].phys->ofPoint;
-			for (std::size_t i = 0; i < points.size(); i++) link(interaction, points[i].get(), static_cast<int>(i));
+			for (std::size_t i = 0; i < manifold->ofPoint.size(); i++) link(interaction, manifold->ofPoint[i].get(), static_cast<int>(i));
 		}
 }
 

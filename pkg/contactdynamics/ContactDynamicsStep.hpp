@@ -86,6 +86,11 @@ private:
 		ContactDynamicsManifoldPhys* phys;
 		Interaction* interaction;
 	};
+	struct Gathered { // interaction of this law; manifold: null unless it has several points
+		Interaction* interaction;
+		ContactDynamicsPhys* phys;
+		ContactDynamicsManifoldPhys* manifold;
+	};
 	struct Load {
 		Vector3r force, torque;
 	};
@@ -126,11 +131,11 @@ private:
 	std::vector<PenetrationRepair::Candidate> candidates; // of the repair
 	std::vector<BodyView> views;						  // by body id
 	std::vector<int> idOfIndex;
-	std::vector<FreeMotion> motions;				 // by solver index
-	std::vector<Vector3r> places;					 // likewise, where there is a mean field: positions [m]
-	std::optional<IntegratorPlan> planOfField;		 // where there is a mean field
-	std::vector<std::vector<Interaction*>> gathered; // by thread
-	std::vector<Link> links;						 // parallel to problem.contacts once collected
+	std::vector<FreeMotion> motions;			 // by solver index
+	std::vector<Vector3r> places;				 // likewise, where there is a mean field: positions [m]
+	std::optional<IntegratorPlan> planOfField;	 // where there is a mean field
+	std::vector<std::vector<Gathered>> gathered; // by thread
+	std::vector<Link> links;					 // parallel to problem.contacts once collected
 	std::vector<Manifold> manifolds;
 	std::vector<Load> loads; // contact force and torque by body id
 	ShiftedContacts shifted;

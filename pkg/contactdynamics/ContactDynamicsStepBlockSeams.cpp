@@ -53,8 +53,8 @@ void ContactDynamicsStep::settleBlockSeamsOf(const Scene& scene)
 {
 	std::vector<Side> sides;
 	for (const auto& ofThread : gathered)
-		for (Interaction* interaction : ofThread) {
-			if (!dynamic_cast<const ManifoldGeom*>(interaction->geom.get())) continue;
+		for (const auto& [interaction, phys, manifold] : ofThread) {
+			if (!manifold) continue;
 			sides.push_back({interaction->getId1(), interaction->getId2(), interaction});
 			sides.push_back({interaction->getId2(), interaction->getId1(), interaction});
 		}

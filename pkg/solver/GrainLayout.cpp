@@ -151,17 +151,26 @@ void GrainOperator::letIdleSleep()
 	for (const GeneralContact& g : generals) sort(g.id, !g.impulse.isZero(0) || !g.increment.isZero(0) || !g.direction.isZero(0), g.W(0, 0));
 	if (5 * idle < awake) return; // not worth the move
 
-	place.assign(contacts.size(), Place{-1, 0});
-	oldPacks.swap(packs);
+	place.assign(contacts.size(), -1);
 	oldGenerals.swap(generals);
-	for (std::size_t i = 0; i < oldPacks.size(); ++i)
-		for (int k = 0; k < 4; ++k)
-			if (oldPacks[i].id[k] >= 0) place[oldPacks[i].id[k]] = {std::int32_t(i), k};
-	for (std::size_t i = 0; i < oldGenerals.size(); ++i) place[oldGenerals[i].id] = {std::int32_t(i), 0};
+	courses.clear();
+	courses.reserve(awake);
+	for (const BallPack& p : packs)
+		for (int k = 0; k < 4; ++k) {
+			if (p.id[k] < 0) continue;
+			place[p.id[k]] = std::int32_t(courses.size());
+			courses.emplace_back();
+			for (int j = 0; j < 3; ++j) {
+				impulses[p.id[k]][j] = p.impulse[j][k]; // from where putBall() takes it
+				courses.back().increment[j] = p.increment[j][k];
+				courses.back().direction[j] = p.direction[j][k];
+			}
+		}
+	for (std::size_t i = 0; i < oldGenerals.size(); ++i) place[oldGenerals[i].id] = std::int32_t(i);
 	std::sort(selected.begin(), selected.end());
 	std::size_t next = 0;
 	for (std::size_t id = 0; id < contacts.size(); ++id) {
-		if (place[id].where < 0) continue;
+		if (place[id] < 0) continue;
 		if (next < selected.size() && std::size_t(selected[next]) == id)
 			++next;
 		else
@@ -176,15 +185,13 @@ void GrainOperator::letIdleSleep()
 	for (BallPack& p : packs)
 		for (int k = 0; k < 4; ++k) {
 			if (p.id[k] < 0) continue;
-			const Place from = place[p.id[k]];
-			const BallPack& old = oldPacks[from.where];
+			const Course& course = courses[place[p.id[k]]];
 			for (int j = 0; j < 3; ++j) {
-				p.impulse[j][k] = old.impulse[j][from.lane];
-				p.increment[j][k] = old.increment[j][from.lane];
-				p.direction[j][k] = old.direction[j][from.lane];
+				p.increment[j][k] = course.increment[j];
+				p.direction[j][k] = course.direction[j];
 			}
 		}
-	for (GeneralContact& g : generals) g = oldGenerals[place[g.id].where];
+	for (GeneralContact& g : generals) g = oldGenerals[place[g.id]];
 }
 
 } // namespace contactdynamics

@@ -37,16 +37,19 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 	});
 	startField();
 	freeVelocities();
-	sums.resize(contacts.size());
+	sums.assign((contacts.size() + perRun - 1) / perRun, Sums{});
 	inRuns(contacts.size(), [&](std::size_t i) {
-		sums[i].approach = normalVelocity(contacts[i]) + contacts[i].gapVelocity;
-		sums[i].speeds = speedsAt(contacts[i]);
+		Sums& run = sums[i / perRun];
+		const double approach = normalVelocity(contacts[i]) + contacts[i].gapVelocity, speeds = speedsAt(contacts[i]);
+		run.closes = run.closes || approach < -roundOffOf(speeds);
+		run.approach = std::max(run.approach, -approach);
+		run.speeds = std::max(run.speeds, speeds);
 	});
 	bool closes = false;
-	for (const Sums& one : sums) {
-		closes = closes || one.approach < -roundOffOf(one.speeds);
-		largestFreeApproach = std::max(largestFreeApproach, -one.approach);
-		speedLimit = std::max(speedLimit, 1000 * one.speeds);
+	for (const Sums& run : sums) {
+		closes = closes || run.closes;
+		largestFreeApproach = std::max(largestFreeApproach, run.approach);
+		speedLimit = std::max(speedLimit, 1000 * run.speeds);
 	}
 	// Where nothing closes, no impulse at all is an exact solution; from impulses of before the sweeps would only creep up to it.
 	if (!closes)
@@ -63,8 +66,12 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 
 	// Awake at first: what carries an impulse, closes, or could be closed by a change of velocity as large as the fastest approach.
 	double fastest = 0;
-	inRuns(contacts.size(), [&](std::size_t i) { sums[i].approach = normalVelocity(contacts[i]) + contacts[i].gapVelocity; });
-	for (const Sums& one : sums) fastest = std::max(fastest, -one.approach);
+	const auto approach = [&](std::size_t i) { return normalVelocity(contacts[i]) + contacts[i].gapVelocity; };
+	sums.assign(sums.size(), Sums{});
+	inRuns(contacts.size(), [&](std::size_t i) { sums[i / perRun].approach = std::max(sums[i / perRun].approach, -approach(i)); });
+	for (const Sums& run : sums) fastest = std::max(fastest, run.approach);
+	mustWake.resize(contacts.size());
+	inRuns(contacts.size(), [&](std::size_t i) { mustWake[i] = approach(i) <= fastest || !impulses[i].isZero(0); });
 	const bool small = contacts.size() <= 64;
 	packs.clear();
 	generals.clear();
@@ -74,7 +81,7 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 	selected.clear();
 	awake = 0;
 	for (std::size_t i = 0; i < contacts.size(); ++i) {
-		if (small || sums[i].approach <= fastest || !impulses[i].isZero(0))
+		if (small || mustWake[i])
 			selected.push_back(std::int32_t(i));
 		else
 			putSleeper(std::int32_t(i));

@@ -61,11 +61,12 @@ private:
 	};
 	struct Sums {
 		ResidualSum residual;
-		double approach = 0, speeds = 0;
+		double approach = 0, speeds = 0; // largest
+		bool closes = false;
 	};
 
-	struct Place { // of a contact in the old layout
-		std::int32_t where, lane;
+	struct Course { // of a ball contact, kept while the contacts are laid out anew
+		double increment[3], direction[3];
 	};
 
 	GrainProblem* problem = nullptr;
@@ -98,13 +99,14 @@ private:
 	BodyBlocks blocks;
 	std::vector<std::int32_t> seat; // of each body: place of its velocities
 	Colouring colouring;
-	std::vector<BallPack> packs, oldPacks;
+	std::vector<BallPack> packs;
+	std::vector<Course> courses;
 	std::vector<GeneralContact> generals, oldGenerals;
 	std::vector<Group> groups;
 	std::vector<Chunk> chunks;
 	std::vector<SweepNorms> chunkNorms;
 	std::vector<Sleeper> sleepers;
-	std::vector<Place> place;
+	std::vector<std::int32_t> place; // of a contact in the old layout
 	std::vector<std::int32_t> selected, colourOf, order, byBlock, firstOfBlock;
 	std::vector<Chunk> blockChunks;
 
