@@ -88,12 +88,15 @@ const contactdynamics::ConvexShape& ConvexShapes::of(const shared_ptr<Shape>& sh
 	{
 		const std::shared_lock<std::shared_mutex> reading(knownShapesGuard);
 		const auto found = knownShapes.find(shape.get());
-		if (found != knownShapes.end() && source.equals(found->second.from)) return *found->second.shape;
+		if (found != knownShapes.end() && !found->second.owner.expired() && source.equals(found->second.from)) return *found->second.shape;
 	}
 	auto made = std::make_unique<contactdynamics::ConvexShape>(make(source));
 	const std::lock_guard<std::shared_mutex> writing(knownShapesGuard);
 	const auto found = knownShapes.find(shape.get()); // another thread may have been faster, and its result may be in use
-	if (found != knownShapes.end() && source.equals(found->second.from)) return *found->second.shape;
+	if (found != knownShapes.end() && source.equals(found->second.from)) {
+		found->second.owner = shape; // it may be of a shape that is gone and had the same address and the same vertices
+		return *found->second.shape;
+	}
 	if (found == knownShapes.end()) forgetTheDead();
 	Entry& entry = knownShapes[shape.get()];
 	entry = {shape, std::vector<Vector3r>(source.first, source.first + source.count), std::move(made)};
