@@ -11,7 +11,7 @@ from yade import FrictMat, O, PolyhedraMat, Quaternion, Vector3, polyhedra_utils
 
 from blocks import block, corners, polyhedron
 from contactdynamics import *  # noqa: F403
-from scenes import G, cd, contact, contacts, equip, floor, grain, isolated, law, material, state, steps, vec
+from scenes import G, box, cd, contact, contacts, equip, floor, grain, isolated, law, material, state, steps, vec
 
 H = 1e-3
 TURN = Quaternion((0.3, 1, 0.2), 0.4)
@@ -287,6 +287,20 @@ def test_same_bits_with_threads_and_across_saving(tmp_path) -> None:
     texts.append((tmp_path / "halves").read_text())
     assert texts[0].count("\n") > 60
     assert texts[1] == texts[0] and texts[2] == texts[0]
+
+
+def test_shapes_like_those_of_scenes_that_are_gone() -> None:
+    """What is known of a shape may be that of a former one at the same address with the same size; the table is cleared when new shapes fill it."""
+    for scene in range(120):
+        O.reset()
+        material()
+        upper = []
+        for k in range(20):
+            box((2 * k, 0, 0), (0.5, 0.5, 0.5))
+            upper.append(block((2 * k, 0, 1), (0.5, 0.5, 0.5 + 1e-6 * (20 * scene + k))))
+        equip(H)
+        steps(2)
+        assert max(abs(state(n).pos[2] - 1) for n in upper) < 1e-3, scene
 
 
 @pytest.mark.parametrize("spoil", ["empty", "flat", "nan"])
