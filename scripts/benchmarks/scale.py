@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Whole steps of YADE for more and more spheres: share of each engine, error and memory; called by ``scripts/bench scale``.
 
-The steps timed are those of a packing that has just come together and settles, after a warming-up that brings the contacts. The memory is what the process
-grew by when ContactDynamicsEngine and NewtonIntegrator joined the engines that make the interactions, over the contacts of the last solve.
+The steps timed are those of a packing that has just come together and settles, after a warming-up that brings the contacts. The memory is what a process that
+has loaded the last scene, interactions included, grows by when ContactDynamicsEngine and NewtonIntegrator join its engines, over the contacts of the solve.
 """
 
 import argparse
@@ -11,20 +11,28 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
-def run(spheres: int, threads: int, options: argparse.Namespace) -> dict:
-    """One scene in a fresh YADE process; the dictionary that scale_job.py prints."""
-    command = ["yade", "-n", "-x", f"-j{threads}", os.path.join(HERE, "scale_job.py")]
-    command += [str(number) for number in (spheres, options.seed, options.warming, options.steps)]
-    print(f"running {spheres} spheres on {threads} threads", flush=True)
+def job(threads: int, *words: str) -> dict:
+    """The dictionary that scale_job.py prints in a fresh YADE process."""
+    command = ["yade", "-n", "-x", f"-j{threads}", os.path.join(HERE, "scale_job.py"), *words]
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
     lines = [line for line in done.stdout.splitlines() if line.startswith("RESULT ")]
     if done.returncode != 0 or not lines:
         sys.exit(f"{' '.join(command)} failed with code {done.returncode}:\n{done.stdout}\n{done.stderr}")
     return json.loads(lines[0][len("RESULT "):])
+
+
+def run(spheres: int, threads: int, options: argparse.Namespace) -> dict:
+    """Time and memory of one scene."""
+    print(f"running {spheres} spheres on {threads} threads", flush=True)
+    with tempfile.TemporaryDirectory() as folder:
+        scene = os.path.join(folder, "scene.yade.gz")
+        times = job(threads, "time", *(str(number) for number in (spheres, options.seed, options.warming, options.steps)), scene)
+        return {**times, **job(threads, "memory", scene)}
 
 
 def main() -> None:

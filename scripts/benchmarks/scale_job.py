@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A pour of N spheres with YADE, whole steps timed engine by engine; prints one line of JSON. Started by scale.py beside it.
+"""A pour of N spheres with YADE, whole steps timed engine by engine; or the memory that Contact Dynamics takes in such a scene.
 
-    PYTHONPATH=build/python yade -n -x -jTHREADS scripts/benchmarks/scale_job.py SPHERES SEED WARMING_UP STEPS
+Prints one line of JSON. Started by scale.py beside it, the second way in a process of its own.
+
+    PYTHONPATH=build/python yade -n -x -jTHREADS scripts/benchmarks/scale_job.py time SPHERES SEED WARMING_UP STEPS SCENE
+    PYTHONPATH=build/python yade -n -x -jTHREADS scripts/benchmarks/scale_job.py memory SCENE
 """
 
 import json
@@ -43,18 +46,13 @@ def buildScene(spheres, seed):
     O.bodies.append(grains)
 
 
-def main(spheres, seed, warming, steps):
+def takeTime(spheres, seed, warming, steps, scene):
+    """Times whole steps, and leaves the scene in a file."""
     buildScene(spheres, seed)
-    engines = contactdynamics.engines(onNonConvergence="ignore")
+    O.engines = contactdynamics.engines(onNonConvergence="ignore")
     O.dt = 0.05 * math.sqrt(RADIUS / 9.81)
-    # Interactions with their geometry and physics exist before the solver meets them: what it adds is its own.
-    O.engines = engines[:3]
-    O.step()
-    before = residentBytes()
-    O.engines = engines
     for _ in range(warming):
         O.step()
-    added = residentBytes() - before
     O.timingEnabled = True
     timing.reset()
     start, sweeps, missed, worst = time.perf_counter(), 0, 0, 0.0
@@ -71,8 +69,28 @@ def main(spheres, seed, warming, steps):
         "sweeps_per_step": sweeps / steps, "missed": missed, "worst_residual": worst, "max_overlap_over_r": cd.maxPenetration / RADIUS,
         "ms_per_step": 1e3 * wall / steps, **{f"ms_{name}": 1e3 * seconds / steps for name, seconds in {**share, **parts}.items()},
         "collect_apply_share": (parts["collect"] + parts["apply"]) / sum(share.values()),
-        "bytes_per_contact": added / max(1, cd.contacts),
     }))
+    O.save(scene)
 
 
-main(*(int(word) for word in sys.argv[1:5]))
+def takeMemory(scene):
+    """What the process grows by when ContactDynamicsEngine and NewtonIntegrator join the engines that make the interactions.
+
+    Interactions with geometry and physics are in the file and exist before.
+    """
+    O.load(scene)
+    engines = list(O.engines)
+    O.engines = engines[:3]
+    O.step()
+    before = residentBytes()
+    O.engines = engines
+    O.step()
+    O.step()
+    solver = next(e for e in engines if type(e).__name__ == "ContactDynamicsEngine")
+    print("RESULT " + json.dumps({"bytes_per_contact": (residentBytes() - before) / max(1, solver.contacts)}))
+
+
+if sys.argv[1] == "memory":
+    takeMemory(sys.argv[2])
+else:
+    takeTime(*(int(word) for word in sys.argv[2:6]), sys.argv[6])
