@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from yade import O, Vector3
 
+from blocks import block
 from contactdynamics import clumps
 from scenes import G, ball_mass, cd, contact, dumbbell, equip, floor, grain, material, momentum, state, steps, vec
 
@@ -237,6 +238,38 @@ def test_clumped_column_stands_as_one_body() -> None:
     assert clumps.dissolve(number) == [1, 2, 3, 4]
     steps(3)
     columns()
+
+
+def test_blocks_clumped_released_erased_and_added() -> None:
+    """A column of cubes that stands: after each change in mid-run the floor bears the weight of what is left, and nothing moves.
+
+    The tolerance leaves 1e-10 of the speed that gravity gives in a step, H G, so 1e-12 m in all steps; the weight of the cubes is that of their volume.
+    """
+    material(0.5)
+    floor(10)
+    lower, second, third, upper = (block((0, 0, z)) for z in (0.5, 1.5, 2.5, 3.5))
+    weight = state(lower).mass * G
+    equip(H, tolerance=1e-10, maxIterations=5000)
+
+    def stands(cubes: int) -> None:
+        steps(30)
+        assert -O.forces.f(0)[2] == pytest.approx(cubes * weight, rel=1e-8)
+        for body in O.bodies:
+            if body.dynamic and not body.isClump:
+                assert abs(vec(body.state.pos)[:2]).max() < 1e-8 and abs(body.state.pos[2] % 1 - 0.5) < 1e-8, body.id
+
+    stands(4)
+    clump = O.bodies.clump([second, third, upper])
+    stands(4)
+    assert state(clump).mass == pytest.approx(3 * state(lower).mass, rel=1e-12)
+    O.bodies.releaseFromClump(upper, clump)
+    stands(4)
+    O.bodies.erase(upper)
+    stands(3)
+    O.bodies.addToClump([block((0, 0, 3.5))], clump)
+    stands(4)
+    O.bodies.erase(clump, True)
+    stands(1)
 
 
 def test_hundred_random_changes() -> None:
