@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsCellController.hpp"
 #include "AdmittedValues.hpp"
+#include "MovableBodies.hpp"
 #include "RefuseAttribute.hpp"
 #include <core/Cell.hpp>
 #include <core/EnergyTracker.hpp>
@@ -45,9 +46,9 @@ void ContactDynamicsCellController::requireAdmissible() const
 
 void ContactDynamicsCellController::postLoad(ContactDynamicsCellController&)
 {
-	const Real before = std::get<3>(admitted);
+	const auto [stressBefore, velGradBefore, stressMaskBefore, inertiaBefore, maxStrainRateBefore] = admitted;
 	admit(attributes(), admitted, [this] { requireAdmissible(); });
-	if (inertia != before) inertiaInUse = 0;
+	if (inertia != inertiaBefore) inertiaInUse = 0;
 }
 
 void ContactDynamicsCellController::action()
@@ -66,14 +67,8 @@ Real ContactDynamicsCellController::inertiaFor(const Scene& scene) const
 {
 	if (inertia > 0) return inertia;
 	if (inertiaInUse > 0) return inertiaInUse;
-	Real mass = 0;
-	int count = 0;
-	for (const auto& body : *scene.bodies) {
-		if (!body || body->isClumpMember() || !body->isDynamic()) continue;
-		mass += body->state->mass;
-		count++;
-	}
-	return mass > 0 ? mass * std::pow(scene.cell->hSize.determinant() / count, Real(2) / 3) / 3 : 0;
+	const auto bodies = MovableBodies::of(scene, [](const Body&) { return true; });
+	return bodies.mass > 0 ? bodies.mass * std::pow(scene.cell->hSize.determinant() / bodies.count, Real(2) / 3) / 3 : 0;
 }
 
 ContactDynamicsCellController::Outlook ContactDynamicsCellController::outlook(const Scene& scene) const

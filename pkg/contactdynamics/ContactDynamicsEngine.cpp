@@ -112,16 +112,18 @@ void ContactDynamicsEngine::solve()
 	}
 	if (converged || onNonConvergence == "ignore") return;
 	std::ostringstream message;
-	if (report.status == contactdynamics::SolveStatus::unbounded)
+	const bool unsolvable = report.status == contactdynamics::SolveStatus::unbounded;
+	if (unsolvable)
 		message << "ContactDynamicsEngine: step " << scene->iter
-				<< ": the contact problem has no solution: bodies are pressed from opposite sides by bodies "
+				<< ": the contact problem has no solution: bodies are pressed from opposite sides by bodies or a periodic cell "
 				<< "whose motion is given, and impulses without bound do not stop them (largest approach speed left " << maxApproachSpeed
-				<< " m/s). Stop the walls, or let a force drive them.";
+				<< " m/s). Stop the walls or the cell, or let a force or a stress drive them.";
 	else
 		message << "ContactDynamicsEngine: step " << scene->iter << ": residual " << residual << " after " << iterations
 				<< " sweeps is above the tolerance " << tolerance << " (" << step->problem.contacts.size()
 				<< " contacts, largest approach speed left " << maxApproachSpeed << " m/s). Raise maxIterations or tolerance, or lower O.dt.";
 	if (onNonConvergence == "raise") throw std::runtime_error(message.str());
+	bool& warned = unsolvable ? warnedOfUnsolvable : warnedOfUnconverged;
 	if (!warned) std::cerr << "WARNING: " << message.str() << " Said once; see ContactDynamicsEngine.converged." << std::endl;
 	warned = true;
 }

@@ -35,7 +35,7 @@ private:
 	void repair();
 
 	void requireAdmissible() const;
-	bool warned = false;
+	bool warnedOfUnconverged = false, warnedOfUnsolvable = false;
 
 public:
 	// clang-format off

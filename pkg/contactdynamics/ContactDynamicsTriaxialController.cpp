@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsTriaxialController.hpp"
 #include "AdmittedValues.hpp"
+#include "MovableBodies.hpp"
 #include "RefuseAttribute.hpp"
 #include <core/Interaction.hpp>
 #include <core/Scene.hpp>
@@ -53,9 +54,9 @@ void ContactDynamicsTriaxialController::requireAdmissible() const
 
 void ContactDynamicsTriaxialController::postLoad(ContactDynamicsTriaxialController&)
 {
-	const Real before = std::get<4>(admitted);
+	const auto [wallsBefore, stressBefore, strainRateBefore, stressMaskBefore, wallMassBefore, maxStrainRateBefore] = admitted;
 	admit(attributes(), admitted, [this] { requireAdmissible(); });
-	if (wallMass != before) wallMassInUse = 0;
+	if (wallMass != wallMassBefore) wallMassInUse = 0;
 }
 
 const Body& ContactDynamicsTriaxialController::wall(const Scene& ofScene, int place) const
@@ -88,14 +89,8 @@ Real ContactDynamicsTriaxialController::massFor(const Scene& ofScene) const
 {
 	if (wallMass > 0) return wallMass;
 	if (wallMassInUse > 0) return wallMassInUse;
-	Real mass = 0;
-	int count = 0;
-	for (const auto& body : *ofScene.bodies) {
-		if (!body || body->isClumpMember() || !body->isDynamic() || std::count(walls.begin(), walls.end(), body->getId())) continue;
-		mass += body->state->mass;
-		count++;
-	}
-	return mass > 0 ? 0.1 * mass / std::cbrt(count) : 0;
+	const auto grains = MovableBodies::of(ofScene, [this](const Body& body) { return std::count(walls.begin(), walls.end(), body.getId()) == 0; });
+	return grains.mass > 0 ? 0.1 * grains.mass / std::cbrt(grains.count) : 0;
 }
 
 std::vector<ContactDynamicsTriaxialController::Outlook> ContactDynamicsTriaxialController::outlook(const Scene& ofScene) const

@@ -150,22 +150,24 @@ CrushedContacts GrainOperator::crushed(double tolerance) const
 		const double uN = c.relativeVelocity.dot(c.normal) + c.gapVelocity + c.normalCompliance * rN;
 		if (!(rN > 0 && uN < 0)) continue;
 		const Body &b1 = problem->bodies[c.body1], &b2 = problem->bodies[c.body2]; // free velocities, until finish()
-		const Vector3 free = b2.velocity + c.imageVelocity - b1.velocity + b2.angularVelocity.cross(c.arm2) - b1.angularVelocity.cross(c.arm1);
+		Vector3 free = b2.velocity + c.imageVelocity - b1.velocity + b2.angularVelocity.cross(c.arm2) - b1.angularVelocity.cross(c.arm1);
+		if (hasField()) free += problem->meanField->gradient * (c.arm1 - c.arm2);
 		const double Wnn = localDelassus(b1, b2, c, contactFrame(c.normal))(0, 0) + c.normalCompliance;
 		found.add(free.dot(c.normal) + c.gapVelocity, uN, rN, Wnn);
 	}
 	return found.any() && mayStandStill() ? CrushedContacts(tolerance, 0) : found;
 }
 
-/// Whether no contact closes when every body stands still along all directions in which it can move.
+/// Whether no contact closes when every body, and the mean field, stands still along all directions in which it can move.
 bool GrainOperator::mayStandStill() const
 {
 	const auto given = [](const Vector3& v, const Vector3& mobility) -> Vector3 { return (mobility.array() == 0).select(v, Vector3::Zero()); };
 	const auto at = [&](const Body& b, const Vector3& arm) -> Vector3 {
 		return given(b.velocity, b.inverseMass) + given(b.angularVelocity, b.inverseInertia.diagonal()).cross(arm);
 	};
+	const Matrix3 still = hasField() ? problem->meanField->standingStill() : Matrix3(Matrix3::Zero());
 	for (const Contact& c : problem->contacts) {
-		const Vector3 u = at(problem->bodies[c.body2], c.arm2) + c.imageVelocity - at(problem->bodies[c.body1], c.arm1);
+		const Vector3 u = at(problem->bodies[c.body2], c.arm2) + c.imageVelocity - at(problem->bodies[c.body1], c.arm1) + still * (c.arm1 - c.arm2);
 		if (u.dot(c.normal) + c.gapVelocity < 0) return false;
 	}
 	return true;

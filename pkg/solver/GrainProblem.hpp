@@ -65,6 +65,9 @@ struct MeanField {
 			}
 		return L;
 	}
+
+	/// L when the components that respond are at rest: prescribed ones and the rotation remain [1/s].
+	Matrix3 standingStill() const { return (inverseMass.array() > 0).select(0.5 * (gradient - gradient.transpose()), gradient); }
 };
 
 /// The Signorini-Coulomb problem of a collection of rigid bodies, matrix-free: W = H^T M^-1 H (28)-(30) of Jean (1999) is never assembled.

@@ -61,6 +61,34 @@ TEST(MeanField, OneContactIsAnImpactOfBallsAndField)
 	EXPECT_NEAR(problem.contacts[0].relativeVelocity[0], 0, 1e-12);
 }
 
+TEST(MeanField, PrescribedCompressionOfTouchingBallsHasNoSolution)
+{
+	// A row that closes on itself across the period: the velocities of its contacts add up to 2 b L_xx, whatever the impulses. With L_xx < 0 no
+	// solution exists; impulses carried over from step to step grow, and the residual relative to them falls. With inertia of its own L_xx gives way.
+	const double b = 2;
+	for (const bool prescribed : {true, false}) {
+		GrainProblem problem;
+		problem.bodies = {scenes::ball(1, 1), scenes::ball(1, 1)};
+		problem.contacts = {scenes::touch(0, 1, 1, 1, Vector3::UnitX(), 0.3), scenes::touch(1, 1, 0, 1, Vector3::UnitX(), 0.3)};
+		Matrix3 gradient = Matrix3::Zero();
+		gradient(0, 0) = -0.1;
+		problem.meanField = field(3, gradient);
+		if (prescribed) problem.meanField->inverseMass.setZero();
+		SignoriniCoulombSolver solver;
+		SolverOptions options;
+		for (int step = 0; step < 20; ++step) {
+			for (Body& body : problem.bodies) body.velocity.setZero();
+			problem.meanField->gradient = gradient;
+			const SolveStatus status = solver.solve(problem, options).status;
+			if (prescribed) {
+				EXPECT_NE(status, SolveStatus::converged) << step;
+				EXPECT_NEAR(problem.contacts[0].relativeVelocity[0] + problem.contacts[1].relativeVelocity[0], 2 * b * gradient(0, 0), 1e-12);
+			} else
+				EXPECT_EQ(status, SolveStatus::converged) << step;
+		}
+	}
+}
+
 TEST(MeanField, AnObliqueContactPushesTheSymmetricPart)
 {
 	// Normal (1, 1, 0)/sqrt 2: M dL = sym(R b^T), so dL_xy = dL_yx = R b / (2 M), and U = b n.L n.

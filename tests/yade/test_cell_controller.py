@@ -108,6 +108,20 @@ def test_row_of_balls_bears_the_pressure() -> None:
     assert cd().maxPenetration < 1e-12
 
 
+def test_full_cell_that_is_compressed_at_a_given_rate(capfd) -> None:
+    """The row has no room left, so no impulse stops it: the step says that there is no solution, until the rate is taken back."""
+    c = row(-PRESSURE)
+    c.velGrad, c.stressMask = Matrix3(-1e-2, 0, 0, 0, 0, 0, 0, 0, 0), 0
+    cd().tolerance = 1e-4
+    for _ in range(20):
+        O.step()
+        assert not cd().converged
+    assert "the contact problem has no solution" in capfd.readouterr().err
+    c.velGrad = Matrix3.Zero
+    steps(2)
+    assert cd().converged
+
+
 def test_cell_without_contact_falls_freely() -> None:
     """dL = h V stress / M in every step; exact but for round-off."""
     c = row(2 * PRESSURE, inertia=5e7)
