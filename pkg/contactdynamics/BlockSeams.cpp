@@ -3,6 +3,7 @@
 #include "Seams.hpp"
 #include <pkg/geometry/PointDistance.hpp>
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace yade {
@@ -46,7 +47,7 @@ private:
 	const Matrix3r& rotation;
 	std::vector<BlockContact>& contacts;
 	std::vector<Real> planes; // by contact: height of its plane along its normal [m]
-	std::vector<char> covered;
+	std::vector<std::uint8_t> covered;
 
 	Real lowestOfBlock(const Vector3r& normal) const { return -reachAlong(block, rotation, Vector3r::Zero(), -normal); }
 	Real gapAlong(const BlockContact& contact, const Vector3r& normal) const

@@ -2,6 +2,7 @@
 #include "ContactDynamicsManifoldPhys.hpp"
 #include <boost/python/list.hpp>
 #include <algorithm>
+#include <cstdint>
 
 namespace yade {
 
@@ -21,7 +22,7 @@ void ContactDynamicsManifoldPhys::followPoints(const ManifoldGeom& geom, const V
 	const std::vector<shared_ptr<ContactDynamicsPhys>> before = ofPoint;
 	const std::vector<Vector3r> placesBefore = places;
 	const std::size_t count = geom.points.size();
-	std::vector<char> found(before.size(), 0);
+	std::vector<std::uint8_t> found(before.size(), 0);
 	ofPoint.assign(count, nullptr);
 	places.resize(count);
 	for (std::size_t i = 0; i < count; i++) {

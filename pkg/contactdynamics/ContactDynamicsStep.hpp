@@ -6,6 +6,7 @@
 #include "ShiftedContacts.hpp"
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
+#include <cstdint>
 #include <optional>
 #include <pkg/solver/BlockProblem.hpp>
 #include <pkg/solver/SignoriniCoulombSolver.hpp>
@@ -140,7 +141,7 @@ private:
 	std::vector<Load> loads; // contact force and torque by body id
 	ShiftedContacts shifted;
 	RollingFriction rolling;
-	std::vector<char> bonded; // by contact, while energy is tracked: a bond may break in the step
+	std::vector<std::uint8_t> bonded; // by contact, while energy is tracked: a bond may break in the step
 	contactdynamics::SignoriniCoulombSolver solver;
 };
 

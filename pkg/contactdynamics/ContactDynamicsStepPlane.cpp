@@ -17,7 +17,7 @@ void ContactDynamicsStep::usePlane()
 {
 	planeAxis = PlaneOfMotion::axisOf(problem);
 	if (planeAxis < 0) return;
-	std::vector<char> disk(problem.bodies.size(), false); // or immobile, which is as good
+	std::vector<std::uint8_t> disk(problem.bodies.size(), false); // or immobile, which is as good
 	for (const BodyView& view : views) {
 		if (!view.state || view.member) continue;
 		disk[view.index] = view.fixed || (view.radius > 0 && PlaneOfMotion::completeAsBall(problem.bodies[view.index], planeAxis));

@@ -2,6 +2,7 @@
 #pragma once
 #include <lib/base/Math.hpp>
 #include <pkg/solver/GrainProblem.hpp>
+#include <cstdint>
 #include <vector>
 
 namespace yade {
@@ -56,7 +57,7 @@ private:
 	};
 	std::vector<Row> rows; // parallel to the candidates
 	std::vector<Vector3r> displacements, mobilities;
-	std::vector<char> stirred, restless; // bodies that the last sweep displaced, and this one
+	std::vector<std::uint8_t> stirred, restless; // bodies that the last sweep displaced, and this one
 	Real largest = 0;
 
 	Row describe(const contactdynamics::Contact& contact, const Candidate& candidate, Real share, Real allowed) const;

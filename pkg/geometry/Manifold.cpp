@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -72,7 +73,7 @@ public:
 
 	const ConvexShape* shape = nullptr;
 	std::vector<Vector3> seen, normals;
-	std::vector<char> onSurface;
+	std::vector<std::uint8_t> onSurface;
 	double extreme = 0; // side * z, the largest
 
 private:

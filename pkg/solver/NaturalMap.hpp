@@ -79,7 +79,7 @@ template <class T> inline Split<T> naturalMap(const Split<T>& r, const Split<T>&
 {
 	const Split<T> z{r.n - (u.n + mu * lengthOf(u.t)) / Wnn, r.t - u.t / Wnn};
 	const Split<T> p = projectOnCone(z, mu);
-	const Split<T> F{r.n - p.n, r.t - p.t};
+	Split<T> F{r.n - p.n, r.t - p.t};
 	if (Wnn * std::sqrt(F.n * F.n + F.t.squaredNorm()) <= roundOffOf(speeds)) return {0, T::Zero()};
 	return F;
 }
