@@ -66,8 +66,36 @@ using BodyAdvance = void (*)(BodyState* now, BodyState* start, BodyState* direct
 void bodyAdvanceBaseline(BodyState* now, BodyState* start, BodyState* direction, std::size_t count, Extrapolation extrapolation);
 void bodyAdvanceAvx2(BodyState* now, BodyState* start, BodyState* direction, std::size_t count, Extrapolation extrapolation);
 
+/// Round-off of a velocity that is a sum of terms of some sizes: a share of their sum, bounded; see NaturalMap.hpp.
+struct RoundOff {
+	double perSpeed; ///< [-]
+	double most;	 ///< [m/s]
+};
+
+/// Sums of the certificate over a run of contacts, and the largest approach speed among them.
+struct CertificateSums {
+	double map2 = 0;	 ///< sum of F^T W F, F the natural map of NaturalMap.hpp [J]
+	double impulse2 = 0; ///< sum of r^T W r [J]
+	double approach = 0; ///< [m/s]
+};
+
+/// Adds to the velocities, and to the moment of the field, what the impulses of the packs give.
+using BallRebuild = void (*)(BodyState* bodies, const BallPack* packs, std::size_t count, FieldPass* field);
+
+void ballRebuildBaseline(BodyState* bodies, const BallPack* packs, std::size_t count, FieldPass* field);
+void ballRebuildAvx2(BodyState* bodies, const BallPack* packs, std::size_t count, FieldPass* field);
+
+/// The certificate of ball contacts at the impulses of the packs and the velocities of the bodies.
+/// @param gradient  of the mean field, row by row; null where there is none [1/s]
+using BallCertify = CertificateSums (*)(const BodyState* bodies, const BallPack* packs, std::size_t count, RoundOff roundOff, const double* gradient);
+
+CertificateSums ballCertifyBaseline(const BodyState* bodies, const BallPack* packs, std::size_t count, RoundOff roundOff, const double* gradient);
+CertificateSums ballCertifyAvx2(const BodyState* bodies, const BallPack* packs, std::size_t count, RoundOff roundOff, const double* gradient);
+
 /// The widest versions this machine can run. All versions give the same bits.
 BallSweep selectBallSweep();
 BodyAdvance selectBodyAdvance();
+BallRebuild selectBallRebuild();
+BallCertify selectBallCertify();
 
 } // namespace contactdynamics

@@ -23,6 +23,9 @@ public:
 	/// @param largestApproach  largest -q_N of the problem [m/s]
 	CrushedContacts(double tolerance, double largestApproach) : ratio(std::min(1000.0, 0.1 / tolerance)), least(0.01 * largestApproach) {}
 
+	/// Whether a contact with this normal velocity can be crushed at all: far fewer than all are looked at closely.
+	bool mayBe(double uN) const { return uN < 0 && uN <= -0.1 * least; }
+
 	/// @param qN  normal velocity without any impulse;  @param uN  at the point [m/s], gap velocity added in both
 	/// @param rN  normal impulse [N s];  @param Wnn  normal mobility [1/kg]
 	void add(double qN, double uN, double rN, double Wnn)

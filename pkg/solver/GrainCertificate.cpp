@@ -6,6 +6,7 @@
 #include "CoulombCone.hpp"
 
 #include <Eigen/Geometry>
+#include <numeric>
 
 namespace contactdynamics {
 
@@ -75,63 +76,96 @@ void GrainOperator::freeVelocities()
 }
 
 /// Velocities = free velocities + M^-1 H r: no drift of the sweeps is left in them. Colour by colour, so that no two threads meet at a body.
+/// The impulses are those of the last visits, inside their cones but for round-off.
 void GrainOperator::rebuildVelocities()
 {
 	freeVelocities();
-	const auto add = [this](std::int32_t id) {
-		if (id >= 0 && !impulses[id].isZero(0)) addImpulse(problem->contacts[id], impulses[id]);
-	};
+	if (hasField()) chunkFields.assign(chunks.size(), FieldPass{});
 	for (const Group& group : groups)
 		share(group.lastChunk - group.firstChunk, [&](std::size_t k) {
-			const Chunk& chunk = chunks[group.firstChunk + k];
-			for (std::size_t i = chunk.firstPack; i < chunk.firstPack + chunk.packs; ++i)
-				for (const std::int32_t id : packs[i].id) add(id);
-			for (std::size_t i = chunk.firstGeneral; i < chunk.firstGeneral + chunk.generals; ++i) add(generals[i].id);
+			const std::size_t i = group.firstChunk + k;
+			const Chunk& chunk = chunks[i];
+			FieldPass* field = hasField() ? &chunkFields[i] : nullptr;
+			if (chunk.packs) ballRebuild(state.data(), packs.data() + chunk.firstPack, chunk.packs, field);
+			for (std::size_t g = chunk.firstGeneral; g < chunk.firstGeneral + chunk.generals; ++g) {
+				const Contact& c = problem->contacts[generals[g].id];
+				const Vector3 impulse = generals[g].frame.transpose() * generals[g].impulse;
+				addImpulse(c, impulse);
+				if (field) Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(field->moment) += impulse * (c.arm1 - c.arm2).transpose();
+			}
 		});
+	if (!hasField()) return;
+	moment.setZero();
+	addFieldPasses();
 }
 
-GrainOperator::Sums GrainOperator::certify(std::size_t first, std::size_t last)
+Vector3 GrainOperator::relativeVelocity(const Contact& c) const
 {
-	Sums result;
-	for (std::size_t i = first; i < last; ++i) {
-		Contact& c = problem->contacts[i];
-		const BodyState &b1 = stateOf(c.body1), &b2 = stateOf(c.body2);
-		Vector3 U = velocity(b2) + c.imageVelocity - velocity(b1) + angularVelocity(b2).cross(c.arm2) - angularVelocity(b1).cross(c.arm1);
-		if (hasField()) U += gradient * (c.arm1 - c.arm2);
-		c.relativeVelocity = U;
-		const double rn = impulses[i].dot(c.normal), un = U.dot(c.normal) + c.gapVelocity + c.normalCompliance * rn;
-		result.approach = std::max(result.approach, -un);
-		if (un >= 0 && rn <= 0) continue; // open and separating: F = 0
-		const double speeds = std::min(speedsAt(c), speedLimit);
-		if (c.ball && !isCompliant(c)) {
-			const double Wn = b1.inverseMass + b2.inverseMass;
-			if (!(Wn > 0)) continue;
-			const double Wt = Wn + c.arm1.squaredNorm() * b1.inverseInertia + c.arm2.squaredNorm() * b2.inverseInertia;
-			const Vector3 rt = impulses[i] - rn * c.normal, ut = U - U.dot(c.normal) * c.normal;
-			const auto F = naturalMap<Vector3>({rn, rt}, {un, ut}, c.friction, Wn, speeds);
-			result.residual.add(Wn * F.n * F.n + Wt * F.t.squaredNorm(), Wn * rn * rn + Wt * rt.squaredNorm());
-		} else {
-			const Matrix3 frame = contactFrame(c.normal);
-			Matrix3 W = localDelassus(problem->bodies[c.body1], problem->bodies[c.body2], c, frame);
-			W.diagonal() += Vector3(c.normalCompliance, c.tangentialCompliance, c.tangentialCompliance);
-			if (!(W(0, 0) > 0)) continue;
-			const Vector3 r = frame * impulses[i], u = frame * U + c.tangentialCompliance * r; // of u the tangents are used, of the normal un
-			const auto F = naturalMap<Eigen::Vector2d>({rn, r.tail<2>()}, {un, u.tail<2>()}, c.friction, W(0, 0), speeds);
-			const Vector3 f(F.n, F.t[0], F.t[1]);
-			result.residual.add(f.dot(W * f), r.dot(W * r));
-		}
-	}
-	return result;
+	const BodyState &b1 = stateOf(c.body1), &b2 = stateOf(c.body2);
+	Vector3 U = velocity(b2) + c.imageVelocity - velocity(b1) + angularVelocity(b2).cross(c.arm2) - angularVelocity(b1).cross(c.arm1);
+	if (hasField()) U += gradient * (c.arm1 - c.arm2);
+	return U;
+}
+
+/// Adds one contact of any kind to the sums.
+/// @param W  with the compliance on its diagonal;  @param r  impulse; both in the frame
+void GrainOperator::certify(const Contact& c, const Matrix3& frame, const Matrix3& W, const Vector3& r, Sums& total) const
+{
+	Vector3 u = frame * relativeVelocity(c) + Vector3(c.normalCompliance, c.tangentialCompliance, c.tangentialCompliance).cwiseProduct(r);
+	u[0] += c.gapVelocity;
+	total.approach = std::max(total.approach, -u[0]);
+	if (u[0] >= 0 && r[0] <= 0) return; // open and separating: F = 0
+	if (!(W(0, 0) > 0)) return;
+	const auto F = naturalMap<Eigen::Vector2d>({r[0], r.tail<2>()}, {u[0], u.tail<2>()}, c.friction, W(0, 0), std::min(speedsAt(c), speedLimit));
+	const Vector3 f(F.n, F.t[0], F.t[1]);
+	total.residual.add(f.dot(W * f), r.dot(W * r));
+}
+
+Matrix3 GrainOperator::compliantDelassus(const Contact& c, const Matrix3& frame) const
+{
+	Matrix3 W = localDelassus(problem->bodies[c.body1], problem->bodies[c.body2], c, frame);
+	W.diagonal() += Vector3(c.normalCompliance, c.tangentialCompliance, c.tangentialCompliance);
+	return W;
 }
 
 double GrainOperator::certificate()
 {
-	collectImpulses();
 	rebuildVelocities();
-	if (hasField()) sumMoment();
-	const std::size_t count = problem->contacts.size();
-	sums.assign((count + perRun - 1) / perRun, Sums{});
-	share(sums.size(), [&](std::size_t k) { sums[k] = certify(k * perRun, std::min(count, (k + 1) * perRun)); });
+	double L[9];
+	for (int i = 0; i < 9; ++i) L[i] = gradient(i / 3, i % 3);
+	const RoundOff roundOff{roundOffOf(1), roundOffOf(speedLimit)};
+	constexpr std::size_t packsPerRun = 512; // long enough for what is fetched ahead
+	const auto runs = [](std::size_t count, std::size_t each) { return (count + each - 1) / each; };
+	const std::size_t packRuns = runs(packs.size(), packsPerRun), generalRuns = runs(generals.size(), perRun);
+	sums.assign(packRuns + generalRuns + runs(sleepers.size(), perRun), Sums{});
+	share(sums.size(), [&](std::size_t k) {
+		Sums& total = sums[k];
+		if (k < packRuns) {
+			const std::size_t first = k * packsPerRun, count = std::min(packsPerRun, packs.size() - first);
+			const CertificateSums balls = ballCertify(state.data(), packs.data() + first, count, roundOff, hasField() ? L : nullptr);
+			total.residual.add(balls.map2, balls.impulse2);
+			total.approach = balls.approach;
+		} else if (k < packRuns + generalRuns) {
+			const std::size_t first = (k - packRuns) * perRun;
+			for (std::size_t i = first; i < std::min(generals.size(), first + perRun); ++i) {
+				const GeneralContact& g = generals[i];
+				const Contact& c = problem->contacts[g.id];
+				if (hasField()) // the W of the visits is another one, see startField()
+					certify(c, g.frame, compliantDelassus(c, g.frame), g.impulse, total);
+				else
+					certify(c, g.frame, g.W, g.impulse, total);
+			}
+		} else {
+			const std::size_t first = (k - packRuns - generalRuns) * perRun;
+			for (std::size_t i = first; i < std::min(sleepers.size(), first + perRun); ++i) {
+				const Sleeper& s = sleepers[i];
+				if (normalVelocity(s) + s.offset >= 0) continue;
+				const Contact& c = problem->contacts[s.id];
+				const Matrix3 frame = contactFrame(c.normal);
+				certify(c, frame, compliantDelassus(c, frame), Vector3::Zero(), total);
+			}
+		}
+	});
 	Sums total;
 	for (const Sums& one : sums) {
 		total.residual.add(one.residual);
@@ -144,16 +178,26 @@ double GrainOperator::certificate()
 CrushedContacts GrainOperator::crushed(double tolerance) const
 {
 	CrushedContacts found(tolerance, largestFreeApproach);
-	for (std::size_t i = 0; i < impulses.size(); ++i) {
-		const Contact& c = problem->contacts[i];
-		const double rN = impulses[i].dot(c.normal);
-		const double uN = c.relativeVelocity.dot(c.normal) + c.gapVelocity + c.normalCompliance * rN;
-		if (!(rN > 0 && uN < 0)) continue;
+	const auto look = [&](std::int32_t id, double uN, double rN) {
+		if (!(rN > 0 && found.mayBe(uN))) return;
+		const Contact& c = problem->contacts[id];
 		const Body &b1 = problem->bodies[c.body1], &b2 = problem->bodies[c.body2]; // free velocities, until finish()
 		Vector3 free = b2.velocity + c.imageVelocity - b1.velocity + b2.angularVelocity.cross(c.arm2) - b1.angularVelocity.cross(c.arm1);
 		if (hasField()) free += problem->meanField->gradient * (c.arm1 - c.arm2);
-		const double Wnn = localDelassus(b1, b2, c, contactFrame(c.normal))(0, 0) + c.normalCompliance;
-		found.add(free.dot(c.normal) + c.gapVelocity, uN, rN, Wnn);
+		found.add(free.dot(c.normal) + c.gapVelocity, uN, rN, compliantDelassus(c, contactFrame(c.normal))(0, 0));
+	};
+	const auto at = [this](std::int32_t i) -> const BodyState& { return state[i < 0 ? ~i : i]; };
+	for (const BallPack& p : packs)
+		for (int k = 0; k < 4; ++k) {
+			if (p.id[k] < 0) continue;
+			const Vector3 n(p.normal[0][k], p.normal[1][k], p.normal[2][k]);
+			const double rN = p.impulse[0][k] * n[0] + p.impulse[1][k] * n[1] + p.impulse[2][k] * n[2];
+			const double field = hasField() ? (p.arm1[k] - p.arm2[k]) * n.dot(gradient * n) : 0;
+			look(p.id[k], (velocity(at(p.body2[k])) - velocity(at(p.body1[k]))).dot(n) + p.gapVelocity[k] + field, rN);
+		}
+	for (const GeneralContact& g : generals) {
+		const Contact& c = problem->contacts[g.id];
+		look(g.id, relativeVelocity(c).dot(c.normal) + c.gapVelocity + c.normalCompliance * g.impulse[0], g.impulse[0]);
 	}
 	return found.any() && mayStandStill() ? CrushedContacts(tolerance, 0) : found;
 }
@@ -183,9 +227,15 @@ void GrainOperator::finish(SolveReport& report)
 	});
 	if (hasField()) problem->meanField->gradient = gradient;
 	report.maxApproachSpeed = maxApproachSpeed;
-	inRuns(impulses.size(), [this](std::size_t i) { finishContact(problem->contacts[i], impulses[i]); });
-	report.activeContacts =
-			int(std::count_if(problem->contacts.begin(), problem->contacts.end(), [](const Contact& c) { return c.status != ContactStatus::none; }));
+	collectImpulses();
+	active.assign((impulses.size() + perRun - 1) / perRun, 0);
+	inRuns(impulses.size(), [this](std::size_t i) {
+		Contact& c = problem->contacts[i];
+		c.relativeVelocity = relativeVelocity(c);
+		finishContact(c, impulses[i]);
+		if (c.status != ContactStatus::none) ++active[i / perRun];
+	});
+	report.activeContacts = std::accumulate(active.begin(), active.end(), 0);
 }
 
 } // namespace contactdynamics

@@ -35,7 +35,7 @@ void GrainOperator::startFieldPass(Extrapolation by)
 	chunkFields.assign(chunks.size(), pass);
 }
 
-void GrainOperator::finishFieldPass()
+void GrainOperator::addFieldPasses()
 {
 	for (const FieldPass& pass : chunkFields)
 		for (int i = 0; i < 9; ++i) moment(i / 3, i % 3) += pass.moment[i];

@@ -134,7 +134,7 @@ SweepNorms GrainOperator::sweep(Extrapolation by)
 			const std::size_t i = group.firstChunk + k;
 			visit(chunks[i], chunkNorms[i], by, hasField() ? &chunkFields[i] : nullptr);
 		});
-	if (hasField()) finishFieldPass();
+	if (hasField()) addFieldPasses();
 	++sweeps;
 	lastNorms = {};
 	for (const SweepNorms& one : chunkNorms) {

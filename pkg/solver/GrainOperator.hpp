@@ -26,7 +26,7 @@ public:
 	void start(GrainProblem& problem, bool accelerated, Crew& crew);
 	static bool isWorthThreads(std::size_t contacts) { return contacts >= 3000; } ///< below, handing out the colours costs more than it brings
 	static constexpr std::size_t blockwiseFrom = 40000; ///< contacts from which on a sweep goes block by block: it no longer fits the caches
-	static constexpr int firstCheck = 0;				///< a certificate costs six sweeps: wait until the increments promise convergence
+	static constexpr int firstCheck = 0;				///< a certificate costs a sweep: wait until the increments promise convergence
 	static constexpr bool startsPlainly = true;
 	bool anyAwake() const { return awake > 0; }
 	std::size_t awakeContacts() const { return awake; } ///< those that a sweep visits
@@ -72,6 +72,8 @@ private:
 	GrainProblem* problem = nullptr;
 	BallSweep ballSweep = selectBallSweep();
 	BodyAdvance bodyAdvance = selectBodyAdvance();
+	BallRebuild ballRebuild = selectBallRebuild();
+	BallCertify ballCertify = selectBallCertify();
 	bool accelerated = false;
 	int sweeps = 0;
 	Crew* crew = nullptr;
@@ -91,9 +93,10 @@ private:
 
 	std::vector<BodyState> state, sweepStart, direction; // by seat: velocities now, at the start of the last sweep, and of the search direction
 	std::vector<std::uint8_t> movable;
-	std::vector<Vector3> impulses; // per contact, global axes, inside the cone: what certificate() speaks about
+	std::vector<Vector3> impulses; // per contact, global axes, inside the cone: those of the start, and from finish() on those of the end
 	std::vector<std::uint8_t> mustWake;
 	std::vector<Sums> sums;
+	std::vector<int> active; // contacts that carry an impulse, by run
 
 	bool blockwise = false;
 	BodyBlocks blocks;
@@ -148,7 +151,7 @@ private:
 	bool hasField() const { return problem->meanField.has_value(); }
 	void startField();
 	void startFieldPass(Extrapolation by);
-	void finishFieldPass();
+	void addFieldPasses();
 	double mobility(double W, const Contact& c) const;
 	void visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by, FieldPass* field);
 	void collectImpulses();
@@ -157,7 +160,9 @@ private:
 	void freeVelocities();
 	void rebuildVelocities();
 	void sumMoment();
-	Sums certify(std::size_t first, std::size_t last);
+	Vector3 relativeVelocity(const Contact& c) const;
+	Matrix3 compliantDelassus(const Contact& c, const Matrix3& frame) const;
+	void certify(const Contact& c, const Matrix3& frame, const Matrix3& W, const Vector3& r, Sums& total) const;
 };
 
 } // namespace contactdynamics

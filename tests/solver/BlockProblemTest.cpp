@@ -13,13 +13,44 @@ using namespace contactdynamics;
 
 namespace {
 
-/// W = H^T M^-1 H and q of a grain problem, in frames that are right-handed and otherwise arbitrary.
-BlockProblem assembled(const GrainProblem& grains, std::vector<Matrix3>& frames)
+/// Balls whose centres and velocities lie in the plane y = 0 and that turn about y: a heap in two dimensions.
+GrainProblem diskHeap(int side, unsigned seed, double friction)
+{
+	std::mt19937_64 random(seed);
+	std::uniform_real_distribution<double> uniform(0, 1);
+	std::normal_distribution<double> normal;
+	GrainProblem problem;
+	problem.bodies.push_back(scenes::wall());
+	std::vector<Vector3> centre(1);
+	std::vector<double> radius(1);
+	for (int i = 0; i < side * side; ++i) {
+		centre.push_back(Vector3(i % side + 0.1 * normal(random), 0, i / side + 0.1 * normal(random)));
+		radius.push_back(0.4 + 0.15 * uniform(random));
+		problem.bodies.push_back(scenes::ball(4 * std::pow(radius.back(), 3), radius.back(), {0.2 * normal(random), 0, 0.2 * normal(random) - 1},
+											  {0, normal(random), 0}));
+	}
+	for (int i = 1; i <= side * side; ++i) {
+		if (i <= side) problem.contacts.push_back(scenes::touch(0, 0, i, radius[i], Vector3::UnitZ(), friction));
+		for (int j = i + 1; j <= side * side; ++j) {
+			const Vector3 d = centre[j] - centre[i];
+			const double gap = d.norm() - radius[i] - radius[j];
+			if (gap < 0.3) problem.contacts.push_back(scenes::touch(i, radius[i], j, radius[j], d.normalized(), friction, std::max(0.0, gap)));
+		}
+	}
+	return problem;
+}
+
+/// W = H^T M^-1 H and q of a grain problem, in frames that are right-handed and otherwise arbitrary; in two dimensions the third axis is y.
+BlockProblem assembled(const GrainProblem& grains, std::vector<Matrix3>& frames, int dimension = 3)
 {
 	BlockProblem problem;
+	problem.dimension = dimension;
 	const std::size_t count = grains.contacts.size();
 	frames.clear();
-	for (const Contact& c : grains.contacts) frames.push_back(Eigen::Quaterniond::FromTwoVectors(c.normal, Vector3::UnitX()).toRotationMatrix());
+	for (const Contact& c : grains.contacts) {
+		frames.push_back(Eigen::Quaterniond::FromTwoVectors(c.normal, Vector3::UnitX()).toRotationMatrix());
+		if (dimension == 2) frames.back() << c.normal.transpose(), Vector3::UnitY().cross(c.normal).transpose(), Vector3::UnitY().transpose();
+	}
 	problem.rowStart.push_back(0);
 	for (std::size_t i = 0; i < count; ++i) {
 		const Contact& a = grains.contacts[i];
@@ -36,16 +67,16 @@ BlockProblem assembled(const GrainProblem& grains, std::vector<Matrix3>& frames)
 			if (i != j && W.isZero(0)) continue;
 			const Matrix3 local = frames[i] * W * frames[j].transpose();
 			problem.column.push_back(int(j));
-			for (int k = 0; k < 9; ++k) problem.blocks.push_back(local(k / 3, k % 3));
+			for (int k = 0; k < dimension * dimension; ++k) problem.blocks.push_back(local(k / dimension, k % dimension));
 		}
 		problem.rowStart.push_back(int(problem.column.size()));
 		const Body &b1 = grains.bodies[a.body1], &b2 = grains.bodies[a.body2];
 		Vector3 u = frames[i] * (b2.velocity + b2.angularVelocity.cross(a.arm2) - b1.velocity - b1.angularVelocity.cross(a.arm1));
 		u[0] += a.gapVelocity;
-		for (int k = 0; k < 3; ++k) problem.q.push_back(u[k]);
+		for (int k = 0; k < dimension; ++k) problem.q.push_back(u[k]);
 		problem.friction.push_back(a.friction);
 	}
-	problem.impulse.assign(3 * count, 0);
+	problem.impulse.assign(dimension * count, 0);
 	return problem;
 }
 
@@ -59,33 +90,50 @@ SolverOptions upTo(double tolerance)
 
 } // namespace
 
-TEST(Blocks, SameSolutionAsMatrixFree)
-{
-	for (const bool general : {false, true}) {
-		GrainProblem grains = scenes::heap(4, 5, 0.3, true, general);
+/// In two and in three dimensions.
+class Blocks : public testing::TestWithParam<int> {
+protected:
+	const int dimension = GetParam();
+
+	GrainProblem grains(double friction) const { return dimension == 2 ? diskHeap(8, 5, friction) : scenes::heap(4, 5, friction, true, false); }
+	Vector3 inSpace(const std::vector<double>& numbers, std::size_t contact) const // third component zero in two dimensions
+	{
+		Vector3 vector = Vector3::Zero();
+		for (int k = 0; k < dimension; ++k) vector[k] = numbers[dimension * contact + k];
+		return vector;
+	}
+	void expectSolutionOf(GrainProblem grains) const
+	{
 		std::vector<Matrix3> frames;
-		BlockProblem blocks = assembled(grains, frames);
+		BlockProblem blocks = assembled(grains, frames, dimension);
 		const GrainProblem free = grains;
 		ASSERT_EQ(SignoriniCoulombSolver().solve(grains, upTo(1e-9)).status, SolveStatus::converged);
 		const SolveReport report = solve(blocks, upTo(1e-9));
 		ASSERT_EQ(report.status, SolveStatus::converged);
 		GrainProblem viaBlocks = free;
-		for (std::size_t i = 0; i < free.contacts.size(); ++i)
-			viaBlocks.contacts[i].impulse = frames[i].transpose() * Eigen::Map<const Vector3>(&blocks.impulse[3 * i]);
+		for (std::size_t i = 0; i < free.contacts.size(); ++i) viaBlocks.contacts[i].impulse = frames[i].transpose() * inSpace(blocks.impulse, i);
 		EXPECT_NEAR(independent::residual(free, viaBlocks), report.residual, 1e-3 * report.residual + 1e-13);
 		// Velocities are the unique part; the tolerance times the condition of the heap, with room.
 		for (std::size_t i = 0; i < free.contacts.size(); ++i) {
 			Vector3 u = frames[i] * grains.contacts[i].relativeVelocity;
 			u[0] += free.contacts[i].gapVelocity;
-			EXPECT_LE((u - Eigen::Map<const Vector3>(&blocks.velocity[3 * i])).norm(), 1e-5) << i;
+			EXPECT_LE((u - inSpace(blocks.velocity, i)).norm(), 1e-5) << i;
 		}
 	}
+};
+
+INSTANTIATE_TEST_SUITE_P(Dimensions, Blocks, testing::Values(2, 3), [](const auto& its) { return its.param == 2 ? "two" : "three"; });
+
+TEST_P(Blocks, SameSolutionAsMatrixFree)
+{
+	expectSolutionOf(grains(0.3));
+	if (dimension == 3) expectSolutionOf(scenes::heap(4, 5, 0.3, true, true)); // contacts of no ball
 }
 
-TEST(Blocks, SiconosMeasureIsItsFormula)
+TEST_P(Blocks, SiconosMeasureIsItsFormula)
 {
 	std::vector<Matrix3> frames;
-	BlockProblem problem = assembled(scenes::heap(4, 5, 0.5), frames);
+	BlockProblem problem = assembled(grains(0.5), frames, dimension);
 	for (const int sweeps : {0, 1, 10}) {
 		BlockProblem solved = problem;
 		SolverOptions options = upTo(1e-14);
@@ -99,7 +147,7 @@ TEST(Blocks, SiconosMeasureIsItsFormula)
 	EXPECT_LE(scenes::siconosError(problem), 1.0001e-8);
 }
 
-TEST(Blocks, ClosedFormInTwoDimensionsAgreesWithTheGeneralSolution)
+TEST(OneContactIn2D, ClosedFormInTwoDimensionsAgreesWithTheGeneralSolution)
 {
 	std::mt19937_64 random(3);
 	std::normal_distribution<double> normal;
@@ -133,7 +181,7 @@ TEST(Blocks, ClosedFormInTwoDimensionsAgreesWithTheGeneralSolution)
 	EXPECT_GT(unique, 50000);
 }
 
-TEST(Blocks, PainleveIsReported)
+TEST(OneContactIn2D, PainleveIsReported)
 {
 	BlockProblem problem;
 	problem.dimension = 2;
@@ -151,15 +199,17 @@ TEST(Blocks, PainleveIsReported)
 	}
 }
 
-TEST(Blocks, BadInputIsRefusedByName)
+TEST_P(Blocks, BadInputIsRefusedByName)
 {
 	BlockProblem good;
-	good.dimension = 2;
+	good.dimension = dimension;
 	good.rowStart = {0, 1};
 	good.column = {0};
-	good.blocks = {1, 0, 0, 1};
-	good.q = {-1, 0};
-	good.impulse = {0, 0};
+	good.blocks.assign(dimension * dimension, 0);
+	for (int k = 0; k < dimension; ++k) good.blocks[(dimension + 1) * k] = 1;
+	good.q.assign(dimension, 0);
+	good.q[0] = -1;
+	good.impulse.assign(dimension, 0);
 	good.friction = {0.5};
 	const auto message = [&](auto&& spoil) -> std::string {
 		BlockProblem problem = good;
@@ -175,7 +225,7 @@ TEST(Blocks, BadInputIsRefusedByName)
 	EXPECT_NE(message([](BlockProblem& p) { p.dimension = 4; }).find("dimension is 4"), std::string::npos);
 	EXPECT_NE(message([](BlockProblem& p) { p.friction[0] = -1; }).find("contact 0: friction is -1"), std::string::npos);
 	EXPECT_NE(message([](BlockProblem& p) { p.column[0] = 1; }).find("column 1"), std::string::npos);
-	EXPECT_NE(message([](BlockProblem& p) { p.q.pop_back(); }).find("q has 1"), std::string::npos);
+	EXPECT_NE(message([](BlockProblem& p) { p.q.pop_back(); }).find("q has " + std::to_string(dimension - 1)), std::string::npos);
 	EXPECT_NE(message([](BlockProblem& p) { p.rowStart = {0, 0}, p.column.clear(), p.blocks.clear(); }).find("no diagonal"), std::string::npos);
 	BlockProblem problem = good;
 	problem.q[0] = std::nan("");

@@ -55,11 +55,15 @@ BlockProblem degenerate(std::mt19937_64& random)
 
 } // namespace
 
-TEST(BlockRobustness, TenThousandDegenerateProblemsEndWithATruthfulStatus)
+/// Ten thousand problems in shards of a thousand, which run side by side: under a sanitizer each takes minutes.
+class BlockRobustness : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(TenThousand, BlockRobustness, testing::Range(0, 10));
+
+TEST_P(BlockRobustness, DegenerateProblemsEndWithATruthfulStatus)
 {
-	std::mt19937_64 random(11);
+	std::mt19937_64 random(11 + unsigned(GetParam()));
 	int converged = 0, unbounded = 0;
-	for (int k = 0; k < 10000; ++k) {
+	for (int k = 0; k < 1000; ++k) {
 		const BlockProblem given = degenerate(random);
 		BlockProblem problem = given;
 		SolverOptions options;
@@ -98,6 +102,6 @@ TEST(BlockRobustness, TenThousandDegenerateProblemsEndWithATruthfulStatus)
 		if (inside) { ASSERT_LE(report.residual, start * (1 + 1e-12)) << k; }
 	}
 	// What fails has driven walls, or is cut short on purpose.
-	EXPECT_GT(converged, 8000);
+	EXPECT_GT(converged, 800);
 	EXPECT_GT(unbounded, 0);
 }

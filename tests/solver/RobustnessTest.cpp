@@ -2,7 +2,6 @@
 // Whatever is thrown at it: a truthful status, never NaN, the same bits for any number of threads and whatever was solved before.
 #include "IndependentResidual.hpp"
 #include "Scenes.hpp"
-#include "pkg/solver/BallPack.hpp"
 #include "pkg/solver/SignoriniCoulombSolver.hpp"
 
 #include <gtest/gtest.h>
@@ -69,15 +68,19 @@ GrainProblem degenerate(std::mt19937_64& random, bool solvable)
 
 } // namespace
 
-TEST(Robustness, ThousandsOfDegenerateProblemsEndWithATruthfulStatus)
+/// Ten thousand problems in shards of a thousand, which run side by side: under a sanitizer each takes minutes.
+class GrainRobustness : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(TenThousand, GrainRobustness, testing::Range(0, 10));
+
+TEST_P(GrainRobustness, DegenerateProblemsEndWithATruthfulStatus)
 {
 	SignoriniCoulombSolver solver;
-	std::mt19937_64 random(5);
+	std::mt19937_64 random(5 + unsigned(GetParam()));
 	SolverOptions options;
 	options.tolerance = 1e-6;
 	options.maxIterations = 500;
 	int converged = 0;
-	for (int k = 0; k < 10000; ++k) {
+	for (int k = 0; k < 1000; ++k) {
 		const bool solvable = k % 2;
 		GrainProblem problem = degenerate(random, solvable);
 		const GrainProblem free = problem;
@@ -105,7 +108,7 @@ TEST(Robustness, ThousandsOfDegenerateProblemsEndWithATruthfulStatus)
 		}
 		converged += solvable && report.status == SolveStatus::converged;
 	}
-	EXPECT_GT(converged, 3500); // of 5000; most others have mass ratios of a million between repeated contacts
+	EXPECT_GT(converged, 350); // of 500; most others have mass ratios of a million between repeated contacts
 }
 
 TEST(Robustness, HardFrictionEndsTruthfully)
@@ -341,48 +344,4 @@ TEST(Empty, NothingToSolve)
 	EXPECT_EQ(report.status, SolveStatus::converged);
 	EXPECT_EQ(report.iterations, 0);
 	EXPECT_EQ(problem.bodies[0].velocity, Vector3(1, 2, 3));
-}
-
-TEST(Reproducible, WideInstructionsGiveTheBitsOfPlainOnes)
-{
-	std::mt19937_64 random(9);
-	std::normal_distribution<double> normal;
-	std::vector<BodyState> bodies(80), same;
-	for (BodyState& body : bodies) {
-		body = {{normal(random), normal(random), normal(random)},
-				std::abs(normal(random)),
-				{normal(random), normal(random), normal(random)},
-				std::abs(normal(random))};
-	}
-	std::vector<BallPack> packs(10), samePacks;
-	for (std::size_t i = 0; i < packs.size(); ++i)
-		for (int lane = 0; lane < 4; ++lane) {
-			BallPack& p = packs[i];
-			const Vector3 n = Vector3(normal(random), normal(random), normal(random)).normalized();
-			for (int k = 0; k < 3; ++k) {
-				p.normal[k][lane] = n[k];
-				p.impulse[k][lane] = normal(random);
-				p.increment[k][lane] = normal(random);
-				p.direction[k][lane] = normal(random);
-			}
-			p.body1[lane] = int(8 * i) + 2 * lane;
-			p.body2[lane] = lane == 3 ? ~(p.body1[lane] + 1) : p.body1[lane] + 1;
-			p.gapVelocity[lane] = normal(random);
-			p.friction[lane] = std::abs(normal(random));
-			p.arm1[lane] = 1, p.arm2[lane] = -0.5;
-			p.inverseWn[lane] = p.inverseWt[lane] = 0.3;
-		}
-	same = bodies;
-	samePacks = packs;
-	const SweepNorms one = ballSweepBaseline(bodies.data(), packs.data(), packs.size(), {0.4, 0.2}, nullptr);
-	const SweepNorms two = selectBallSweep()(same.data(), samePacks.data(), samePacks.size(), {0.4, 0.2}, nullptr);
-	EXPECT_EQ(one.increment2, two.increment2);
-	EXPECT_EQ(one.impulse2, two.impulse2);
-	for (std::size_t i = 0; i < bodies.size(); ++i)
-		for (int k = 0; k < 3; ++k) {
-			EXPECT_EQ(bodies[i].velocity[k], same[i].velocity[k]);
-			EXPECT_EQ(bodies[i].angularVelocity[k], same[i].angularVelocity[k]);
-		}
-	for (std::size_t i = 0; i < packs.size(); ++i)
-		for (int k = 0; k < 12; ++k) EXPECT_EQ(packs[i].impulse[k / 4][k % 4], samePacks[i].impulse[k / 4][k % 4]);
 }

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The certificate of the grains against the independent evaluation, wherever the sweeps happen to be.
+#include "IndependentResidual.hpp"
+#include "Scenes.hpp"
+#include "pkg/solver/GrainOperator.hpp"
+#include "pkg/solver/SignoriniCoulombLoop.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace contactdynamics;
+
+namespace {
+
+/// After so many sweeps; mended first, as the loop does.
+void expectIndependentResidual(const GrainProblem& free, int sweeps)
+{
+	GrainProblem problem = free;
+	Crew crew(1);
+	GrainOperator grains;
+	grains.start(problem, true, crew);
+	for (int i = 0; i < sweeps; ++i) grains.sweep(i % 3 ? Extrapolation{0.3, 0.2} : Extrapolation{});
+	while (grains.mend()) grains.sweep({});
+	const double residual = grains.certificate();
+	SolveReport report;
+	grains.finish(report);
+	const double expected = independent::residual(free, problem);
+	// Both are sums of some thousand terms; each F is a difference of impulses, so that round-off counts relative to these: with residuals above
+	// 1e-6, 1e-16 times the condition of a velocity (masses to 1e2, some ten contacts a body) leaves nine digits.
+	ASSERT_GT(expected, 1e-6);
+	EXPECT_NEAR(residual, expected, 1e-9 * expected) << sweeps;
+	double approach = 0;
+	for (const Contact& c : problem.contacts) approach = std::max(approach, -(c.relativeVelocity.dot(c.normal) + c.gapVelocity));
+	EXPECT_NEAR(report.maxApproachSpeed, approach, 1e-9 * approach) << sweeps;
+}
+
+} // namespace
+
+TEST(Certificate, IsTheIndependentResidualWhereverTheSweepsAre)
+{
+	for (const double friction : {0.0, 0.4, 2.0})
+		for (const bool heavy : {false, true})
+			for (const bool general : {false, true})
+				for (const int sweeps : {0, 1, 2, 5, 20}) {
+					SCOPED_TRACE(testing::Message() << friction << heavy << general);
+					expectIndependentResidual(scenes::heap(5, 3, friction, heavy, general), sweeps);
+				}
+}
+
+TEST(Certificate, KnowsMeanFieldImmobileBodiesAndImages)
+{
+	GrainProblem problem = scenes::heap(5, 8, 0.4);
+	std::mt19937_64 random(2);
+	std::normal_distribution<double> normal;
+	const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+	for (std::size_t i = 3; i < problem.bodies.size(); i += 7) { // moving, but not to be moved
+		problem.bodies[i].inverseMass.setZero();
+		problem.bodies[i].inverseInertia.setZero();
+	}
+	problem.contacts.push_back(scenes::touch(3, 0.5, 10, 0.5, Vector3::UnitX(), 0.4, -1)); // neither can: no part in the residual
+	for (std::size_t i = 0; i < problem.contacts.size(); i += 11) problem.contacts[i].imageVelocity = 0.3 * vector();
+	for (const int sweeps : {0, 1, 5}) expectIndependentResidual(problem, sweeps);
+
+	problem = scenes::heap(5, 9, 0.4, true);
+	problem.meanField.emplace();
+	problem.meanField->inverseMass.setConstant(1e-3);
+	for (int k = 0; k < 9; ++k) problem.meanField->gradient(k / 3, k % 3) = 0.1 * normal(random);
+	for (const int sweeps : {0, 1, 5}) expectIndependentResidual(problem, sweeps);
+}
+
+TEST(Certificate, IsTheSameInAnyUnits)
+{
+	for (const double mass : {1e-60, 1.0, 1e60})
+		for (const double speed : {1e-60, 1.0, 1e60})
+			for (const int sweeps : {0, 1, 10}) {
+				SCOPED_TRACE(testing::Message() << mass << ' ' << speed);
+				GrainProblem problem = scenes::heap(4, 4, 0.4, true);
+				for (Body& body : problem.bodies) {
+					body.velocity *= speed;
+					body.angularVelocity *= speed;
+					body.inverseMass /= mass;
+					body.inverseInertia /= mass;
+				}
+				for (Contact& c : problem.contacts) c.gapVelocity *= speed;
+				expectIndependentResidual(problem, sweeps);
+			}
+}
