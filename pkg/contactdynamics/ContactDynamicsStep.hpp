@@ -118,8 +118,18 @@ private:
 	Real powerOnPrescribed(int index, const Vector3r& force, const Vector3r& torque) const;
 	void writeBack(const Link& link, const contactdynamics::Contact& contact) const;
 	static void leaveOut(Link& link);
+	/// What touches as one in the repair, where bodies are not turned: all points of an interaction.
+	struct TouchingPair {
+		std::size_t first, last; // links, last one excluded
+		bool loaded;
+		Real gap;	  // that is repaired, see gapToRepair() [m]
+		Real deepest; // of all points [m]
+		Real size;	  // what an overlap is measured against [m]
+	};
 	Real sizeOf(std::size_t contact) const;
-	Real gapToRepair(std::size_t contact) const;
+	Real gapAfterMotion(std::size_t contact) const;
+	Real gapToRepair(const TouchingPair& pair) const;
+	void findPairs();
 	void displace(Scene& scene, Real share, Real allowed);
 
 	bool solved = false; // problem holds a solution
@@ -130,6 +140,8 @@ private:
 	Matrix3r displacementAsVelocity; // see IntegratorPlan::velocityOfDisplacement [1/s]
 	PenetrationRepair repair;
 	std::vector<PenetrationRepair::Candidate> candidates; // of the repair
+	std::vector<TouchingPair> pairs;					  // likewise, and that of each candidate
+	std::vector<std::size_t> pairOf;
 	std::vector<BodyView> views;						  // by body id
 	std::vector<int> idOfIndex;
 	std::vector<FreeMotion> motions;			 // by solver index
@@ -143,6 +155,8 @@ private:
 	RollingFriction rolling;
 	std::vector<std::uint8_t> bonded; // by contact, while energy is tracked: a bond may break in the step
 	contactdynamics::SignoriniCoulombSolver solver;
+	std::vector<contactdynamics::Body> freeBodies; // of solveAtRest(), to start again from
+	std::optional<contactdynamics::MeanField> freeField;
 };
 
 } // namespace yade

@@ -13,6 +13,8 @@ namespace {
 constexpr Real gentleStep = 1e-4;
 /// ... but at least by this share, which makes a hundredth of any overlap in 770 steps.
 constexpr Real leastShare = 6e-3;
+/// Overlap of a point up to which the loaded points of the same pair stay closed, in sizes.
+constexpr Real bearable = 1e-3;
 } // namespace
 
 /// What an overlap is measured against: the radius of the smaller sphere, the shorter lever arm where there is none.
@@ -26,21 +28,50 @@ Real ContactDynamicsStep::sizeOf(std::size_t i) const
 
 /// The larger one of the gaps at the start and at the end of the step. The overlap of a compliant contact is its deformation, which carries its
 /// force: it has no gap to repair.
-Real ContactDynamicsStep::gapToRepair(std::size_t i) const
+Real ContactDynamicsStep::gapAfterMotion(std::size_t i) const
 {
 	const contactdynamics::Contact& contact = problem.contacts[i];
 	return contact.normalCompliance > 0 ? 0 : links[i].gap + std::max(Real(0), h * contact.normal.dot(contact.relativeVelocity));
 }
 
+/// A translation moves all points of a pair alike. To part the deepest one would open the others: where they carry an impulse, the bodies would have
+/// to turn to close them again, in the next step, by a velocity, for as long as the repair goes on; a heap of blocks would never stand still. So the
+/// shallowest loaded point decides, which is deep as well where a whole face overlaps, unless another one is too deep to be left alone.
+Real ContactDynamicsStep::gapToRepair(const TouchingPair& pair) const
+{
+	if (pair.last - pair.first == 1 || !pair.loaded || pair.deepest < -bearable * pair.size) return pair.deepest;
+	Real shallowest = pair.deepest;
+	for (std::size_t i = pair.first; i < pair.last; i++)
+		if (problem.contacts[i].impulse != Vector3r::Zero()) shallowest = std::max(shallowest, std::min(Real(0), gapAfterMotion(i)));
+	return shallowest;
+}
+
+void ContactDynamicsStep::findPairs()
+{
+	pairs.clear();
+	for (std::size_t i = 0; i < links.size(); i++) {
+		const bool loaded = problem.contacts[i].impulse != Vector3r::Zero();
+		const Real gap = gapAfterMotion(i);
+		if (i > 0 && links[i].interaction == links[i - 1].interaction) {
+			TouchingPair& pair = pairs.back();
+			pair.last = i + 1;
+			pair.loaded = pair.loaded || loaded;
+			pair.deepest = std::min(pair.deepest, gap);
+			pair.size = std::min(pair.size, sizeOf(i));
+		} else
+			pairs.push_back({i, i + 1, loaded, gap, gap, sizeOf(i)});
+	}
+	for (TouchingPair& pair : pairs) pair.gap = gapToRepair(pair);
+}
+
 void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowed)
 {
 	remainingOverlap = repairDisplacement = 0;
-	Real deepest = 0; // in sizes
-	for (std::size_t i = 0; i < links.size(); i++) {
-		const Real overlap = -gapToRepair(i);
-		if (overlap <= 0) continue;
-		remainingOverlap = std::max(remainingOverlap, overlap);
-		deepest = std::max(deepest, overlap / sizeOf(i));
+	Real deepest = 0; // to be repaired, in sizes
+	findPairs();
+	for (const TouchingPair& pair : pairs) {
+		remainingOverlap = std::max(remainingOverlap, -pair.deepest);
+		deepest = std::max(deepest, -pair.gap / pair.size);
 	}
 	if (rate > 0 && deepest > allowed) {
 		displace(scene, std::min(rate, std::max(leastShare, gentleStep / deepest)), allowed);
@@ -52,15 +83,23 @@ void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowe
 void ContactDynamicsStep::displace(Scene& scene, Real share, Real allowed)
 {
 	candidates.clear();
-	for (std::size_t i = 0; i < links.size(); i++) {
-		const Real gap = gapToRepair(i), size = sizeOf(i);
-		if (gap > 2 * PenetrationRepair::largestWay * size || problem.contacts[i].normalCompliance > 0)
-			links[i].phys->pseudoImpulse = 0;
-		else
-			candidates.push_back({static_cast<int>(i), gap, size, links[i].phys->pseudoImpulse});
+	pairOf.clear();
+	for (std::size_t k = 0; k < pairs.size(); k++) {
+		const TouchingPair& pair = pairs[k];
+		if (pair.gap > 2 * PenetrationRepair::largestWay * pair.size || problem.contacts[pair.first].normalCompliance > 0) {
+			for (std::size_t i = pair.first; i < pair.last; i++) links[i].phys->pseudoImpulse = 0;
+			continue;
+		}
+		std::size_t its = pair.first;
+		while (pair.loaded && problem.contacts[its].impulse == Vector3r::Zero()) its++;
+		candidates.push_back({static_cast<int>(its), pair.gap, pair.deepest, pair.size, links[pair.first].phys->pseudoImpulse});
+		pairOf.push_back(k);
 	}
 	repair.solve(problem, candidates, share, allowed);
-	for (const PenetrationRepair::Candidate& candidate : candidates) links[candidate.contact].phys->pseudoImpulse = candidate.pseudoImpulse;
+	for (std::size_t k = 0; k < candidates.size(); k++) {
+		const TouchingPair& pair = pairs[pairOf[k]];
+		for (std::size_t i = pair.first; i < pair.last; i++) links[i].phys->pseudoImpulse = candidates[k].pseudoImpulse;
+	}
 	remainingOverlap = repair.remainingOverlap(candidates);
 	repairDisplacement = repair.largestDisplacement();
 

@@ -31,16 +31,16 @@ bool ContactDynamicsStep::standsStill() const
 }
 
 /// Blocks that stand still should go on standing still. What a residual leaves of velocity, the next step has to take away: just below the tolerance
-/// a stack of blocks would sway for ever, whatever the tolerance is, because solving on is what damps its sway. So impulses are improved as far as a
-/// limited number of sweeps allows; once they are right, the next steps need hardly any.
+/// a stack of blocks would sway for ever, whatever the tolerance is, because solving on is what damps its sway. So impulses are improved to
+/// round-off, as far as a limited number of sweeps a step allows; once they are right, they stay so, and the next steps need one or two sweeps.
 contactdynamics::SolveReport ContactDynamicsStep::solveAtRest(const contactdynamics::SolverOptions& options)
 {
 	constexpr int sweeps = 200;
-	constexpr Real better = 1e-4, best = 1e-12; // of the tolerance; beyond lies round-off
-	const std::vector<contactdynamics::Body> freeBodies = problem.bodies;
-	const auto freeField = problem.meanField;
+	constexpr Real best = 1e-12; // beyond lies round-off
+	freeBodies = problem.bodies;
+	freeField = problem.meanField;
 	contactdynamics::SolverOptions careful = options;
-	careful.tolerance = std::min(options.tolerance, std::max(better * options.tolerance, best));
+	careful.tolerance = std::min(options.tolerance, best);
 	careful.maxIterations = std::min(options.maxIterations, sweeps);
 	auto report = solveOnce(careful);
 	if (report.status != contactdynamics::SolveStatus::maxIterations) return report;

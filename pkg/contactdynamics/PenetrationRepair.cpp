@@ -108,7 +108,7 @@ Real PenetrationRepair::remainingOverlap(const std::vector<Candidate>& candidate
 	Real remaining = 0;
 	for (std::size_t i = 0; i < rows.size(); i++) {
 		const Row& row = rows[i];
-		remaining = std::max(remaining, -(candidates[i].gap + row.normal.dot(displacements[row.body2] - displacements[row.body1])));
+		remaining = std::max(remaining, -(candidates[i].deepest + row.normal.dot(displacements[row.body2] - displacements[row.body1])));
 	}
 	return remaining;
 }

@@ -28,8 +28,9 @@ class PenetrationRepair {
 public:
 	/// What the repair needs to know of a contact beside the solved problem.
 	struct Candidate {
-		int contact;		// index into the contacts of the problem
+		int contact;		// index into the contacts of the problem; one that carries an impulse where any of the pair does
 		Real gap;			// the larger one of those at the start and at the end of the step: an overlap that the motion removes is none [m]
+		Real deepest;		// of all points of the pair, <= gap [m]
 		Real size;			// what an overlap is measured against [m]
 		Real pseudoImpulse; // in: of the step before, out: of this step; over the largest displacement asked for [kg]
 	};
