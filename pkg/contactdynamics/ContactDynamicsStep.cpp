@@ -50,6 +50,16 @@ ContactDynamicsManifoldPhys* manifoldPhys(const Interaction& interaction, const 
 	return dynamic_cast<ManifoldGeom*>(interaction.geom.get()) ? dynamic_cast<ContactDynamicsManifoldPhys*>(interaction.phys.get()) : nullptr;
 }
 
+/// The objects of the contacts lie anywhere in memory, and only we know where: each is fetched some contacts before its turn, an interaction, which
+/// holds the addresses of the others, earlier.
+constexpr long ahead = 6, farAhead = 12;
+
+template <class Object> void prefetchObject(const Object* object)
+{
+	constexpr std::size_t line = 64;
+	for (std::size_t at = 0; at < sizeof(Object); at += line) __builtin_prefetch(reinterpret_cast<const char*>(object) + at);
+}
+
 const char* nameOf(contactdynamics::ContactStatus status)
 {
 	switch (status) {
@@ -126,52 +136,66 @@ void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 {
 	// Each body keeps its interactions sorted by the other id, under the smaller of the two ids: walking the bodies gives an order
 	// that depends on nothing but ids, without a sort. Threads take consecutive ranges of bodies.
-	gathered.resize(omp_get_max_threads());
-	for (auto& ofThread : gathered) ofThread.clear();
+	met.resize(omp_get_max_threads());
+	for (auto& ofThread : met) ofThread.clear();
 	parallelLoop(static_cast<long>(views.size()), [&](long id) {
 		const auto& body = (*scene.bodies)[id];
 		if (!body) return;
 		for (const auto& other : body->intrs) {
 			if (other.first <= id || other.first >= static_cast<int>(views.size()) || !views[other.first].state) continue;
-			Interaction& interaction = *other.second;
-			if (ContactDynamicsPhys* phys = contactDynamicsPhys(interaction))
-				gathered[omp_get_thread_num()].push_back({&interaction, phys, manifoldPhys(interaction, *phys)});
+			__builtin_prefetch(other.second.get()); // met again below
+			met[omp_get_thread_num()].push_back(other.second.get());
 		}
+	});
+	gathered.clear();
+	for (const auto& ofThread : met)
+		for (Interaction* interaction : ofThread) gathered.push_back({interaction});
+	const long count = static_cast<long>(gathered.size());
+	parallelLoop(count, [&](long i) {
+		if (i + farAhead < count) prefetchObject(gathered[i + farAhead].interaction);
+		if (i + ahead < count) {
+			__builtin_prefetch(gathered[i + ahead].interaction->phys.get());
+			__builtin_prefetch(gathered[i + ahead].interaction->geom.get());
+		}
+		Gathered& one = gathered[i];
+		one.phys = contactDynamicsPhys(*one.interaction);
+		if (one.phys) one.manifold = manifoldPhys(*one.interaction, *one.phys);
+		one.id1 = one.interaction->getId1();
+		one.id2 = one.interaction->getId2();
 	});
 	settleBlockSeamsOf(scene);
 	manifolds.clear();
-	for (const auto& ofThread : gathered)
-		for (const auto& [interaction, phys, manifold] : ofThread)
-			if (manifold) manifolds.push_back({static_cast<ManifoldGeom*>(interaction->geom.get()), manifold, interaction});
+	for (const Gathered& one : gathered)
+		if (one.manifold) manifolds.push_back({static_cast<ManifoldGeom*>(one.interaction->geom.get()), one.manifold, one.interaction});
 	parallelLoop(static_cast<long>(manifolds.size()), [&](long i) {
 		const Interaction& interaction = *manifolds[i].interaction;
 		const int smaller = std::min(interaction.getId1(), interaction.getId2());
 		manifolds[i].phys->followPoints(*manifolds[i].geom, views[smaller].state->pos);
 	});
-	links.clear();
 	std::size_t points = 0;
-	for (const auto& ofThread : gathered)
-		for (const Gathered& one : ofThread) points += one.manifold ? one.manifold->ofPoint.size() : 1;
-	links.reserve(points); // growth by doubling would keep twice the memory
-	const auto link = [this](Interaction* interaction, ContactDynamicsPhys* phys, int point) {
-		links.push_back({interaction, phys, false, true, Vector3r::Zero(), Vector3r::Zero(), 0, point});
-	};
-	for (const auto& ofThread : gathered)
-		for (const auto& [interaction, phys, manifold] : ofThread) {
-			if (!manifold) {
-				link(interaction, phys, -1);
-				continue;
-			}
-			for (std::size_t i = 0; i < manifold->ofPoint.size(); i++) link(interaction, manifold->ofPoint[i].get(), static_cast<int>(i));
-		}
+	for (Gathered& one : gathered) {
+		one.firstLink = points;
+		if (one.phys) points += one.manifold ? one.manifold->ofPoint.size() : 1;
+	}
+	if (links.capacity() < points) links.reserve(points); // growth by doubling would keep twice the memory
+	links.resize(points);
+	parallelLoop(count, [&](long i) {
+		const Gathered& one = gathered[i];
+		if (!one.phys) return;
+		const auto link = [&](std::size_t place, ContactDynamicsPhys* phys, int point) {
+			links[place] = {one.interaction, phys, false, true, Vector3r::Zero(), Vector3r::Zero(), 0, point, one.id1, one.id2};
+		};
+		if (!one.manifold) return link(one.firstLink, one.phys, -1);
+		for (std::size_t k = 0; k < one.manifold->ofPoint.size(); k++) link(one.firstLink + k, one.manifold->ofPoint[k].get(), static_cast<int>(k));
+	});
 }
 
 void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const
 {
 	const Interaction& interaction = *link.interaction;
 	const ScGeom& geom = static_cast<const ScGeom&>(*interaction.geom);
-	const BodyView& view1 = views[interaction.getId1()];
-	const BodyView& view2 = views[interaction.getId2()];
+	const BodyView& view1 = views[link.id1];
+	const BodyView& view2 = views[link.id2];
 	const Vector3r shift = scene.isPeriodic ? Vector3r(scene.cell->hSize * interaction.cellDist.cast<Real>()) : Vector3r(Vector3r::Zero());
 
 	// The contact point lies in the middle of gap or overlap. For spheres the arms come from the radii, exactly along the normal.
@@ -209,7 +233,7 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 		contact.arm2 = Vector3r::Zero();
 	}
 
-	link.swapped = (link.point >= 0 || (view1.radius > 0 && view2.radius > 0)) && interaction.getId1() > interaction.getId2();
+	link.swapped = (link.point >= 0 || (view1.radius > 0 && view2.radius > 0)) && link.id1 > link.id2;
 	if (link.swapped) {
 		std::swap(contact.body1, contact.body2);
 		std::swap(contact.arm1, contact.arm2);
@@ -265,7 +289,13 @@ void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string&
 	gatherInteractions(scene);
 	settleSurfaceSeams(scene);
 	problem.contacts.resize(links.size());
-	parallelLoop(static_cast<long>(links.size()), [&](long i) {
+	const long count = static_cast<long>(links.size());
+	parallelLoop(count, [&](long i) {
+		if (i + farAhead < count) prefetchObject(links[i + farAhead].interaction);
+		if (i + ahead < count) {
+			prefetchObject(static_cast<const ScGeom*>(links[i + ahead].interaction->geom.get()));
+			prefetchObject(links[i + ahead].phys);
+		}
 		Link& link = links[i];
 		contactdynamics::Contact& contact = problem.contacts[i];
 		describe(scene, link, contact);
@@ -335,7 +365,11 @@ void ContactDynamicsStep::apply(Scene& scene)
 	for (std::size_t i = 0; i < bonded.size(); i++) bonded[i] = ShiftedContacts::isBonded(*links[i].phys);
 	shifted.restore(problem, tolerance);
 	rolling.remember();
-	parallelLoop(static_cast<long>(links.size()), [&](long i) { writeBack(links[i], problem.contacts[i]); });
+	const long count = static_cast<long>(links.size());
+	parallelLoop(count, [&](long i) {
+		if (i + ahead < count) prefetchObject(links[i + ahead].phys);
+		writeBack(links[i], problem.contacts[i]);
+	});
 	parallelLoop(static_cast<long>(manifolds.size()), [&](long i) { manifolds[i].phys->sumUp(*manifolds[i].geom); });
 
 	// One sum a body, in the order of the contacts: adding from several threads would make the last bits depend on their number.
@@ -352,8 +386,8 @@ void ContactDynamicsStep::apply(Scene& scene)
 		activeContacts++;
 		penetrations += penetration;
 		const Vector3r force = (link.swapped ? -1 : 1) / h * contact.impulse;
-		Load& on1 = loads[link.interaction->getId1()];
-		Load& on2 = loads[link.interaction->getId2()];
+		Load& on1 = loads[link.id1];
+		Load& on2 = loads[link.id2];
 		on1.force -= force;
 		on1.torque -= link.arm1.cross(force);
 		on2.force += force;
@@ -362,8 +396,8 @@ void ContactDynamicsStep::apply(Scene& scene)
 	meanPenetration = activeContacts > 0 ? penetrations / activeContacts : 0;
 	for (const RollingFriction::Row& row : rolling.all()) {
 		const Vector3r torque = (row.swapped ? -1 : 1) / h * row.impulse;
-		loads[links[row.contact].interaction->getId1()].torque -= torque;
-		loads[links[row.contact].interaction->getId2()].torque += torque;
+		loads[links[row.contact].id1].torque -= torque;
+		loads[links[row.contact].id2].torque += torque;
 	}
 	if (scene.trackEnergy) trackEnergy(scene);
 

@@ -80,6 +80,7 @@ private:
 		Vector3r arm1, arm2; // from the positions of the two bodies (not of their clumps) to the contact point [m]
 		Real gap;			 // [m]
 		int point = -1;		 // of a ManifoldGeom; -1 for a contact with one point
+		int id1, id2;		 // of the bodies, as the interaction has them
 		bool plain = true;	 // see ContactDynamicsPhys::isPlain
 	};
 	struct Manifold { // contact with several points, each of which is a link
@@ -87,10 +88,12 @@ private:
 		ContactDynamicsManifoldPhys* phys;
 		Interaction* interaction;
 	};
-	struct Gathered { // interaction of this law; manifold: null unless it has several points
+	struct Gathered { // interaction of this law
 		Interaction* interaction;
-		ContactDynamicsPhys* phys;
-		ContactDynamicsManifoldPhys* manifold;
+		ContactDynamicsPhys* phys = nullptr;			 // null: of another law
+		ContactDynamicsManifoldPhys* manifold = nullptr; // null unless it has several points
+		int id1 = -1, id2 = -1;
+		std::size_t firstLink = 0;
 	};
 	struct Load {
 		Vector3r force, torque;
@@ -144,11 +147,12 @@ private:
 	std::vector<std::size_t> pairOf;
 	std::vector<BodyView> views;						  // by body id
 	std::vector<int> idOfIndex;
-	std::vector<FreeMotion> motions;			 // by solver index
-	std::vector<Vector3r> places;				 // likewise, where there is a mean field: positions [m]
-	std::optional<IntegratorPlan> planOfField;	 // where there is a mean field
-	std::vector<std::vector<Gathered>> gathered; // by thread
-	std::vector<Link> links;					 // parallel to problem.contacts once collected
+	std::vector<FreeMotion> motions;			// by solver index
+	std::vector<Vector3r> places;				// likewise, where there is a mean field: positions [m]
+	std::optional<IntegratorPlan> planOfField;	// where there is a mean field
+	std::vector<std::vector<Interaction*>> met; // by thread
+	std::vector<Gathered> gathered;
+	std::vector<Link> links; // parallel to problem.contacts once collected
 	std::vector<Manifold> manifolds;
 	std::vector<Load> loads; // contact force and torque by body id
 	ShiftedContacts shifted;

@@ -52,12 +52,11 @@ BlockContact contactSeenFrom(const Scene& scene, const Side& side)
 void ContactDynamicsStep::settleBlockSeamsOf(const Scene& scene)
 {
 	std::vector<Side> sides;
-	for (const auto& ofThread : gathered)
-		for (const auto& [interaction, phys, manifold] : ofThread) {
-			if (!manifold) continue;
-			sides.push_back({interaction->getId1(), interaction->getId2(), interaction});
-			sides.push_back({interaction->getId2(), interaction->getId1(), interaction});
-		}
+	for (const Gathered& one : gathered) {
+		if (!one.manifold) continue;
+		sides.push_back({one.id1, one.id2, one.interaction});
+		sides.push_back({one.id2, one.id1, one.interaction});
+	}
 	std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.body != b.body ? a.body < b.body : a.other < b.other; });
 	std::vector<std::size_t> starts;
 	for (std::size_t i = 0; i < sides.size(); i++)

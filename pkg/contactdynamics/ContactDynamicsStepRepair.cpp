@@ -20,9 +20,8 @@ constexpr Real bearable = 1e-3;
 /// What an overlap is measured against: the radius of the smaller sphere, the shorter lever arm where there is none.
 Real ContactDynamicsStep::sizeOf(std::size_t i) const
 {
-	const Interaction& interaction = *links[i].interaction;
 	const auto smaller = [](Real one, Real two) { return one > 0 && two > 0 ? std::min(one, two) : std::max(one, two); };
-	const Real radius = smaller(views[interaction.getId1()].radius, views[interaction.getId2()].radius);
+	const Real radius = smaller(views[links[i].id1].radius, views[links[i].id2].radius);
 	return radius > 0 ? radius : smaller(problem.contacts[i].arm1.norm(), problem.contacts[i].arm2.norm());
 }
 

@@ -16,7 +16,7 @@ namespace yade {
 /// A sphere that rolls over a seam takes the start of the solve along: the impulse goes from the contact that is left to the one that follows it.
 void ContactDynamicsStep::passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts) const
 {
-	const auto sphereIsFirst = [&](std::size_t i) { return views[group[i]->interaction->getId1()].radius > 0; };
+	const auto sphereIsFirst = [&](std::size_t i) { return views[group[i]->id1].radius > 0; };
 	constexpr Real alike = 0.9; // cosine of the angle between normals of contacts that take over from each other
 	for (std::size_t from = 0; from < contacts.size(); from++) {
 		Vector3r& impulse = group[from]->phys->impulse;
@@ -38,13 +38,11 @@ void ContactDynamicsStep::settleSurfaceSeams(const Scene& scene)
 	};
 	// Links of spheres with more than one surface, by sphere and image of space, and by the surface's id within. Seldom many.
 	std::vector<int> surfacesOf(views.size(), 0);
-	const auto ofSurface = [&](const Link& link) {
-		return (views[link.interaction->getId1()].radius > 0) != (views[link.interaction->getId2()].radius > 0);
-	};
+	const auto ofSurface = [&](const Link& link) { return (views[link.id1].radius > 0) != (views[link.id2].radius > 0); };
 	// The sphere is body 2, but for polyhedra.
-	const auto sphereIsFirst = [&](const Link& link) { return views[link.interaction->getId1()].radius > 0; };
-	const auto sphereOf = [&](const Link& link) { return sphereIsFirst(link) ? link.interaction->getId1() : link.interaction->getId2(); };
-	const auto surfaceOf = [&](const Link& link) { return sphereIsFirst(link) ? link.interaction->getId2() : link.interaction->getId1(); };
+	const auto sphereIsFirst = [&](const Link& link) { return views[link.id1].radius > 0; };
+	const auto sphereOf = [&](const Link& link) { return sphereIsFirst(link) ? link.id1 : link.id2; };
+	const auto surfaceOf = [&](const Link& link) { return sphereIsFirst(link) ? link.id2 : link.id1; };
 	for (const Link& link : links)
 		if (ofSurface(link)) surfacesOf[sphereOf(link)]++;
 	std::vector<Link*> shared;
