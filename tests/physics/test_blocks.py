@@ -170,7 +170,7 @@ def test_heap_of_polyhedra_comes_to_rest_to_round_off() -> None:
     for place, axis, sense in ((0, 2, 1), (0, 0, 1), (3 * cell, 0, -1), (0, 1, 1), (3 * cell, 1, -1)):
         O.bodies.append(utils.wall(place, axis=axis, sense=sense, material=stone))
     ids = []
-    for k in range(27):
+    for k in range(18):
         points = generator.normal(size=(12, 3))
         points *= 0.5 * size / np.linalg.norm(points, axis=1)[:, None]
         ids.append(polyhedron(points.tolist(), tuple(cell * (0.5 + n) for n in (k % 3, k // 3 % 3, k // 9))))
