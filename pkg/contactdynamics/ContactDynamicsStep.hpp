@@ -145,7 +145,7 @@ private:
 	std::vector<PenetrationRepair::Candidate> candidates; // of the repair
 	std::vector<TouchingPair> pairs;					  // likewise, and that of each candidate
 	std::vector<std::size_t> pairOf;
-	std::vector<BodyView> views;						  // by body id
+	std::vector<BodyView> views; // by body id
 	std::vector<int> idOfIndex;
 	std::vector<FreeMotion> motions;			// by solver index
 	std::vector<Vector3r> places;				// likewise, where there is a mean field: positions [m]

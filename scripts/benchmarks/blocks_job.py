@@ -50,7 +50,7 @@ def main(count, seed, longest):
             iterations += cd.iterations
             unconverged += not cd.converged
         spent += clock() - start
-        quiet = quiet + 1 if kineticEnergy() < 1e-12 * weight * SIZE else 0
+        quiet = quiet + 1 if kineticEnergy() < 1e-20 * weight * SIZE else 0
         print(f"step {O.iter}: kinetic energy / (weight size) {kineticEnergy() / (weight * SIZE):.1e}, {cd.activeContacts} loaded points, "
               f"{iterations / O.iter:.0f} sweeps and {1e3 * spent / O.iter:.0f} ms a step, {unconverged} not converged", file=sys.stderr, flush=True)
     steps = O.iter
