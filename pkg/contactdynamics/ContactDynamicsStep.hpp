@@ -102,6 +102,7 @@ private:
 	contactdynamics::SolveReport solveOnce(const contactdynamics::SolverOptions& options);
 	contactdynamics::SolveReport solveAtRest(const contactdynamics::SolverOptions& options);
 	bool standsStill() const;
+	Real roundOffAtRest() const;
 	contactdynamics::BlockProblem assembledProblem(const char* caller) const;
 	void gatherInteractions(const Scene& scene);
 	void settleSurfaceSeams(const Scene& scene);

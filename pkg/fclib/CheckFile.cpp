@@ -11,12 +11,11 @@ struct Shape {
 	int rows, columns;
 };
 
-std::string count(std::int64_t n) { return std::to_string(n); }
-
 void requireEntries(const Hdf5File& file, const std::string& name, std::int64_t expected, const std::string& because)
 {
 	const std::int64_t found = file.entries(name);
-	if (found != expected) file.refuse(name, "has " + count(found) + " entries, must have " + count(expected) + " (" + because + ")");
+	if (found != expected)
+		file.refuse(name, "has " + std::to_string(found) + " entries, must have " + std::to_string(expected) + " (" + because + ")");
 }
 
 void requireVector(const Hdf5File& file, const std::string& name, std::int64_t expected, const std::string& because, bool negativeAllowed = true)
@@ -24,9 +23,9 @@ void requireVector(const Hdf5File& file, const std::string& name, std::int64_t e
 	requireEntries(file, name, expected, because);
 	const std::vector<double> values = file.reals(name);
 	for (std::size_t k = 0; k < values.size(); ++k) {
-		if (!std::isfinite(values[k])) file.refuse(name, "is " + std::to_string(values[k]) + " at entry " + count(k) + ", must be finite");
+		if (!std::isfinite(values[k])) file.refuse(name, "is " + std::to_string(values[k]) + " at entry " + std::to_string(k) + ", must be finite");
 		if (values[k] < 0 && !negativeAllowed)
-			file.refuse(name, "is " + std::to_string(values[k]) + " at entry " + count(k) + ", must not be negative");
+			file.refuse(name, "is " + std::to_string(values[k]) + " at entry " + std::to_string(k) + ", must not be negative");
 	}
 }
 
@@ -35,28 +34,29 @@ void requireIndices(const Hdf5File& file, const std::string& name, int below)
 	const std::vector<int> values = file.integers(name);
 	for (std::size_t k = 0; k < values.size(); ++k)
 		if (values[k] < 0 || values[k] >= below)
-			file.refuse(name, "is " + count(values[k]) + " at entry " + count(k) + ", must be in 0 ... " + count(below - 1));
+			file.refuse(name,
+						"is " + std::to_string(values[k]) + " at entry " + std::to_string(k) + ", must be in 0 ... " + std::to_string(below - 1));
 }
 
 void requireStarts(const Hdf5File& file, const std::string& name, int lines, int capacity)
 {
 	requireEntries(file, name, std::int64_t(lines) + 1, "one more than the lines of the compressed matrix");
 	const std::vector<int> starts = file.integers(name);
-	if (starts.front() != 0) file.refuse(name, "starts with " + count(starts.front()) + ", must start with 0");
+	if (starts.front() != 0) file.refuse(name, "starts with " + std::to_string(starts.front()) + ", must start with 0");
 	for (std::size_t k = 1; k < starts.size(); ++k)
-		if (starts[k] < starts[k - 1]) file.refuse(name, "decreases at entry " + count(k));
-	if (starts.back() > capacity) file.refuse(name, "ends with " + count(starts.back()) + ", more than nzmax = " + count(capacity));
+		if (starts[k] < starts[k - 1]) file.refuse(name, "decreases at entry " + std::to_string(k));
+	if (starts.back() > capacity) file.refuse(name, "ends with " + std::to_string(starts.back()) + ", more than nzmax = " + std::to_string(capacity));
 }
 
 Shape requireMatrix(const Hdf5File& file, const std::string& name)
 {
 	const int capacity = file.integer(name + "/nzmax"), rows = file.integer(name + "/m"), columns = file.integer(name + "/n");
 	const int format = file.integer(name + "/nz");
-	if (rows < 0) file.refuse(name + "/m", "is " + count(rows) + ", must not be negative");
-	if (columns < 0) file.refuse(name + "/n", "is " + count(columns) + ", must not be negative");
-	if (capacity < 0) file.refuse(name + "/nzmax", "is " + count(capacity) + ", must not be negative");
-	if (format < -2) file.refuse(name + "/nz", "is " + count(format) + ", must be -2 (rows), -1 (columns) or the number of triplets");
-	if (format > capacity) file.refuse(name + "/nz", "is " + count(format) + ", more than nzmax = " + count(capacity));
+	if (rows < 0) file.refuse(name + "/m", "is " + std::to_string(rows) + ", must not be negative");
+	if (columns < 0) file.refuse(name + "/n", "is " + std::to_string(columns) + ", must not be negative");
+	if (capacity < 0) file.refuse(name + "/nzmax", "is " + std::to_string(capacity) + ", must not be negative");
+	if (format < -2) file.refuse(name + "/nz", "is " + std::to_string(format) + ", must be -2 (rows), -1 (columns) or the number of triplets");
+	if (format > capacity) file.refuse(name + "/nz", "is " + std::to_string(format) + ", more than nzmax = " + std::to_string(capacity));
 
 	const int stored = format >= 0 ? format : capacity;
 	const std::string because = format >= 0 ? "nz" : "nzmax";
@@ -84,7 +84,7 @@ Shape requireMatrix(const Hdf5File& file, const std::string& name)
 
 void requireSize(const Hdf5File& file, const std::string& name, int found, int expected, const std::string& because)
 {
-	if (found != expected) file.refuse(name, "is " + count(found) + ", must be " + count(expected) + " (" + because + ")");
+	if (found != expected) file.refuse(name, "is " + std::to_string(found) + ", must be " + std::to_string(expected) + " (" + because + ")");
 }
 
 Shape requireSquare(const Hdf5File& file, const std::string& name)
@@ -98,9 +98,9 @@ Shape requireSquare(const Hdf5File& file, const std::string& name)
 int contactsOf(const Hdf5File& file, const std::string& root, int components, const std::string& nameOfComponents)
 {
 	const int dimension = file.integer(root + "/spacedim");
-	if (dimension != 2 && dimension != 3) file.refuse(root + "/spacedim", "is " + count(dimension) + ", must be 2 or 3");
+	if (dimension != 2 && dimension != 3) file.refuse(root + "/spacedim", "is " + std::to_string(dimension) + ", must be 2 or 3");
 	if (components % dimension != 0)
-		file.refuse(nameOfComponents, "is " + count(components) + ", must be a multiple of spacedim = " + count(dimension));
+		file.refuse(nameOfComponents, "is " + std::to_string(components) + ", must be a multiple of spacedim = " + std::to_string(dimension));
 	return components / dimension;
 }
 

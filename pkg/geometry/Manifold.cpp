@@ -177,7 +177,7 @@ Separation findManifold(const PlacedShape& one, const PlacedShape& two, double r
 {
 	points.clear();
 	const auto overlay = [&](const DecidingFeature& preferred) {
-		const Separation separation = separate(one, two, reach, preferred);
+		Separation separation = separate(one, two, reach, preferred);
 		if (separation.gap > reach) return separation;
 		Overlay laid(one, two, separation, reach, 0, points);
 		laid.vertices();

@@ -38,7 +38,7 @@ SurfacePoint nearestOnSurface(const PlacedShape& shape, const Vector3& point)
 			nearest = face;
 		}
 	}
-	const SurfacePoint byFace{height, point - height * shape.normals[nearest], shape.normals[nearest]};
+	SurfacePoint byFace{height, point - height * shape.normals[nearest], shape.normals[nearest]};
 	// Inside, the nearest face is the nearest part of the surface; outside, only if the point stands above it.
 	if (height <= 0 || isAboveFace(shape, nearest, point)) return byFace;
 	// Of all faces the point stands above, and edges, the nearest: the height above the plane of any other face is only a lower bound.

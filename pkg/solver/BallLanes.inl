@@ -24,13 +24,12 @@ inline Wide squareRoot(Wide a)
 
 inline void transpose(Wide& a, Wide& b, Wide& c, Wide& d)
 {
-	const Lanes even{0, 4, 2, 6}, odd{1, 5, 3, 7}, low{0, 1, 4, 5}, high{2, 3, 6, 7};
-	const Wide ab0 = __builtin_shuffle(a, b, even), ab1 = __builtin_shuffle(a, b, odd);
-	const Wide cd0 = __builtin_shuffle(c, d, even), cd1 = __builtin_shuffle(c, d, odd);
-	a = __builtin_shuffle(ab0, cd0, low);
-	b = __builtin_shuffle(ab1, cd1, low);
-	c = __builtin_shuffle(ab0, cd0, high);
-	d = __builtin_shuffle(ab1, cd1, high);
+	const Wide ab0 = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+	const Wide cd0 = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+	a = __builtin_shufflevector(ab0, cd0, 0, 1, 4, 5);
+	b = __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5);
+	c = __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7);
+	d = __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7);
 }
 
 struct Vector {

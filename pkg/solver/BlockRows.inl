@@ -8,7 +8,6 @@ namespace {
 
 typedef double Wide __attribute__((vector_size(32)));
 typedef double Unaligned __attribute__((vector_size(32), aligned(8), may_alias));
-typedef long long Lanes __attribute__((vector_size(32)));
 
 inline Wide load(const double* p) { return *reinterpret_cast<const Unaligned*>(p); }
 inline void store(double* p, Wide a) { *reinterpret_cast<Unaligned*>(p) = a; }
@@ -41,7 +40,7 @@ void BLOCK_PRODUCT_3(const BlockRows& rows, ImpulseLanes* r, std::size_t from, s
 		// Lanes 0 to 2 of the first two rows, 1 to 3 of the third: so nothing is read beyond the block. The lane left over is not used.
 		const auto add = [&](std::int32_t k, Wide& first, Wide& second, Wide& third) {
 			const double* w = rows.blocks + 9 * std::size_t(k);
-			const Wide x = load(r[rows.column[k]].lane), shifted = __builtin_shuffle(x, Lanes{3, 0, 1, 2});
+			const Wide x = load(r[rows.column[k]].lane), shifted = __builtin_shufflevector(x, x, 3, 0, 1, 2);
 			first += load(w) * x;
 			second += load(w + 3) * x;
 			third += load(w + 5) * shifted;

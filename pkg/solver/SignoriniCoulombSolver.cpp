@@ -126,7 +126,7 @@ SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOpt
 	report.status = converged ? SolveStatus::converged : SolveStatus::maxIterations;
 	const CrushedContacts crushed = converged ? winner.crushed(options.tolerance) : CrushedContacts(1, 0);
 	if (crushed.any()) {
-		const GrainProblem free = problem;
+		const GrainProblem free = problem; // NOLINT(performance-unnecessary-copy-initialization): finish() writes to the problem it refers to
 		winner.finish(report);
 		if (workspace->runsAway(free, problem, options, result.iterations, crushed)) report.status = SolveStatus::unbounded;
 	} else
