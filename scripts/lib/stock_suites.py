@@ -13,16 +13,17 @@ import subprocess
 import sys
 
 
-def start(suite: str, plugin: bool, folder: str) -> tuple[subprocess.Popen, str]:
-    """Start ``yade --SUITE`` in a folder of its own, because the suites write files where they run."""
+def run(suite: str, plugin: bool, folder: str) -> tuple[int, str]:
+    """Run ``yade --SUITE`` in a folder of its own, because the suites write files where they run; exit code and all that it printed."""
     name = os.path.join(folder, f"stock-{suite}-{'with' if plugin else 'without'}-plugin")
     os.makedirs(name, exist_ok=True)
     command = ["yade", "-n", *(["-L", "contactdynamics"] if plugin else []), f"--{suite}"]
     # -L imports YADE before it has read its own options, so the number of threads has to come from outside.
     environment = dict(os.environ, OMP_NUM_THREADS="1", PYTHONPATH=os.path.abspath(os.environ["PYTHONPATH"]))
     with open(name + ".log", "w") as out:
-        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, env=environment, cwd=name)
-    return process, name + ".log"
+        code = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, env=environment, cwd=name).returncode
+    with open(name + ".log", errors="replace") as log:
+        return code, log.read()
 
 
 def unitTests(text: str) -> dict[str, str]:
@@ -45,13 +46,9 @@ def checks(text: str) -> dict[str, str]:
 def main(folder: str) -> int:
     different, lines = False, []
     for suite, read in (("test", unitTests), ("check", checks)):
-        outcomes, codes = [], []
-        # Both at once: most of the time the suites wait, and a busy machine slows both alike.
-        for process, log in [start(suite, plugin, folder) for plugin in (False, True)]:
-            codes.append(process.wait())
-            with open(log, errors="replace") as file:
-                outcomes.append(read(file.read()))
-        stock, ours = outcomes
+        # One after the other: the doctest of plot.saveDataTxt writes, reads and removes a file of a fixed name in /tmp, and fails beside its twin.
+        codes, texts = zip(*[run(suite, plugin, folder) for plugin in (False, True)])
+        stock, ours = (read(text) for text in texts)
         if len(stock) == 0 or stock.get("tests that ran") == "0":
             sys.exit(f"yade --{suite} ran nothing; see {folder}/stock-{suite}-*.log")
         for name in sorted(set(stock) | set(ours)):

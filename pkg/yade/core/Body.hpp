@@ -30,7 +30,7 @@ class Body : public Serializable {
 	shared_ptr<State> state;
 	shared_ptr<Shape> shape;
 	shared_ptr<Bound> bound;
-	MapId2IntrT intrs; ///< interactions in which this body has the smaller id
+	MapId2IntrT intrs; ///< interactions of this body, by the id of the other one
 	id_t clumpId;	   ///< id of the clump this body is, or is a member of; ID_NONE otherwise
 	long iterBorn;
 	Real timeBorn;
