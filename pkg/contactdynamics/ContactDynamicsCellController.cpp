@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsCellController.hpp"
 #include "AdmittedValues.hpp"
+#include "ContactEnergy.hpp"
 #include "MovableBodies.hpp"
 #include "RefuseAttribute.hpp"
 #include <core/Cell.hpp>
@@ -158,6 +159,18 @@ void ContactDynamicsCellController::apply(Scene& scene, const Matrix3r& gradient
 	if (scene.trackEnergy) scene.energy->add(-added, "velGradWork", place);
 	cell.nextVelGrad = gradient; // NewtonIntegrator puts it into effect
 	cell.velGradChanged = true;
+}
+
+void ContactDynamicsCellController::yieldToRepair(Scene& scene, const Matrix3r& strain, const Matrix3r& otherStress)
+{
+	if (strain.isZero(0)) return;
+	Cell& cell = *scene.cell;
+	const Real volume = cell.hSize.determinant(), ofGoal = volume * stress.cwiseProduct(strain).sum();
+	work += ofGoal;
+	if (scene.trackEnergy)
+		ContactEnergy::reportRepair(*scene.energy, ofGoal - volume * otherStress.cwiseProduct(strain).sum(), ofGoal, "velGradWork");
+	cell.hSize += strain * cell.hSize; // the next step derives all else of the cell from it
+	cell.trsf += strain * cell.trsf;
 }
 
 } // namespace yade

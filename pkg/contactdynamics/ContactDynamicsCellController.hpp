@@ -24,6 +24,9 @@ public:
 	/// Hands the gradient at the solution to the cell and reports.
 	/// @param moment  see ContactDynamicsStep::moment() [N m s]
 	void apply(Scene& scene, const Matrix3r& gradient, const Matrix3r& moment, const Matrix3r& otherStress);
+	/// Strains the cell as penetration repair has strained the mean field, without velocity. The work of stresses in it is booked as that of forces
+	/// is, see ContactEnergy::reportRepair().
+	void yieldToRepair(Scene& scene, const Matrix3r& strain, const Matrix3r& otherStress);
 
 	/// What may come in the next step, for those who look ahead: the reach of bodies, the time step.
 	struct Outlook {
@@ -49,7 +52,7 @@ public:
 		".. math:: M\\,(L^{+} - L^{-}) = h\\,V\\,(\\sigma_{\\mathrm{goal}} - \\sigma), \\qquad V\\sigma = -\\sum_c \\mathrm{sym}(R_c \\otimes b_c) \n\n"
 		"in the same solve, at the end of the same step, as Signorini's condition and Coulomb's law. At rest the stress is the goal, to the tolerance of the solve; in motion it differs by M·dL/dt/V. "
 		"Stress is that of ``utils.getStress()``: Cauchy stress of the contact forces, positive in tension, without the kinetic part; soft contacts of the scene count. \n\n"
-		"Stands anywhere before :yref:`ContactDynamicsEngine` in ``O.engines``; :yref:`homoDeform<Cell.homoDeform>` must not be 0 and :yref:`NewtonIntegrator.mask` 0. It determines ``O.cell.velGrad``: what a script writes there has no effect while the controller is alive. :yref:`Cell.trsf` tells the strain. "
+		"Stands anywhere before :yref:`ContactDynamicsEngine` in ``O.engines``; :yref:`homoDeform<Cell.homoDeform>` must not be 0 and :yref:`NewtonIntegrator.mask` 0. It determines ``O.cell.velGrad``: what a script writes there has no effect while the controller is alive. :yref:`Cell.trsf` tells the strain, that by penetration repair included: overlaps of a jammed packing leave it only if the cell grows. "
 		"An engine of YADE that steers the cell (:yref:`PeriTriaxController`, :yref:`Peri3dController`, :yref:`PeriIsoCompressor`) may not be alive beside it. Errors (RuntimeError from the step, before anything moves) name attribute, value and what is allowed.",
 		((Matrix3r,stress,Matrix3r::Zero(),Attr::triggerPostLoad,"Goal of the components under stress [Pa], positive in tension, so ``-p`` on the diagonal for a pressure p; symmetric. Others are ignored. May be changed at any time. Not symmetric or not finite: ValueError."))
 		((Matrix3r,velGrad,Matrix3r::Zero(),Attr::triggerPostLoad,"Velocity gradient of the components not under stress [1/s], ``velGrad[i,j]`` = ∂v_i/∂x_j, as :yref:`Cell.velGrad`. Of a shear component under stress the difference ``velGrad[i,j] - velGrad[j,i]``, a rotation of the cell, remains prescribed. Not finite: ValueError."))
@@ -57,9 +60,9 @@ public:
 		((Real,inertia,0,Attr::triggerPostLoad,"Inertia M of the cell [kg·m²], ≥ 0; its kinetic energy is M·(L:L)/2 over the components under stress. 0 (default): a third of the mass of all movable bodies times (V/N)^(2/3), N their number and V the volume in the first step, that is about the square of a diameter; kept in :yref:`inertiaInUse<ContactDynamicsCellController.inertiaInUse>`. "
 			"At that the cell follows within a time d·sqrt(density/pressure), like the grains, and costs the solver few sweeps; a lighter cell holds the stress closer in fast motion but needs more sweeps, a heavier one lets it fluctuate more. Negative or not finite: ValueError."))
 		((Real,maxStrainRate,std::numeric_limits<Real>::infinity(),Attr::triggerPostLoad,"Largest magnitude of a component of the symmetric velocity gradient under stress [1/s], > 0, held by whatever force it takes: a loose assembly is then compressed at this rate instead of being accelerated. Where the bound acts the stress is below its goal. Default: infinite."))
-		((Matrix3r,currentStress,Matrix3r::Zero(),Attr::readonly,"Stress in the last step [Pa], as :yref:`stress<ContactDynamicsCellController.stress>`; equal to ``utils.getStress()`` evaluated behind :yref:`ContactDynamicsEngine`, before the bodies move (and but for what penetration repair has moved them by, where all components are prescribed rates)."))
+		((Matrix3r,currentStress,Matrix3r::Zero(),Attr::readonly,"Stress in the last step [Pa], as :yref:`stress<ContactDynamicsCellController.stress>`; equal to ``utils.getStress()`` evaluated behind :yref:`ContactDynamicsEngine`, before the bodies move, but for what penetration repair has moved them and the cell by."))
 		((Real,inertiaInUse,0,Attr::readonly,"Inertia in the last step [kg·m²]; 0 before the first."))
-		((Real,work,0,Attr::readonly,"Work done by the cell on its contents since the start [J]: sum of h·V·σ:(L⁻+L⁺)/2. With ``O.trackEnergy`` its negative is ``O.energy['velGradWork']``, as of :yref:`PeriTriaxController`."))
+		((Real,work,0,Attr::readonly,"Work done by the cell on its contents since the start [J]: sum of h·V·σ:(L⁻+L⁺)/2, and of V·σ_goal:E for strains E by penetration repair. With ``O.trackEnergy`` its negative is ``O.energy['velGradWork']``, as of :yref:`PeriTriaxController`."))
 	);
 	// clang-format on
 private:

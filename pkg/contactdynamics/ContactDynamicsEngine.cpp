@@ -143,10 +143,8 @@ void ContactDynamicsEngine::apply()
 
 void ContactDynamicsEngine::repair()
 {
-	// At the fixed cell in which repair works, a jammed packing has nowhere to go; where the stress determines the cell, both would pull at it for
-	// ever.
-	const bool cellYields = cellController && cellController->stressMask != 0;
-	step->repairPenetration(*scene, cellYields ? 0 : repairRate, allowedOverlap);
+	step->repairPenetration(*scene, repairRate, allowedOverlap);
+	if (cellController) cellController->yieldToRepair(*scene, step->repairStrain, otherStress);
 	remainingOverlap = step->remainingOverlap;
 	repairDisplacement = step->repairDisplacement;
 }

@@ -30,14 +30,15 @@ struct ContactDynamicsStep {
 	};
 
 	contactdynamics::GrainProblem problem;
-	std::vector<Twist> free;	 // free velocities by solver index
-	int planeAxis = -1;			 // normal to the plane of a two-dimensional scene, see PlaneOfMotion
-	int activeContacts = 0;		 // of the last apply()
-	Real maxPenetration = 0;	 // [m]
-	Real meanPenetration = 0;	 // [m], mean over the active contacts
-	Real elasticEnergy = 0;		 // of compliant contacts [J], while O.trackEnergy
-	Real remainingOverlap = 0;	 // largest at the end of the step, repair included [m]
-	Real repairDisplacement = 0; // largest of a body [m]
+	std::vector<Twist> free;				  // free velocities by solver index
+	int planeAxis = -1;						  // normal to the plane of a two-dimensional scene, see PlaneOfMotion
+	int activeContacts = 0;					  // of the last apply()
+	Real maxPenetration = 0;				  // [m]
+	Real meanPenetration = 0;				  // [m], mean over the active contacts
+	Real elasticEnergy = 0;					  // of compliant contacts [J], while O.trackEnergy
+	Real remainingOverlap = 0;				  // largest at the end of the step, repair included [m]
+	Real repairDisplacement = 0;			  // largest of a body, relative to a mean field that yields, and of two neighbours by the field [m]
+	Matrix3r repairStrain = Matrix3r::Zero(); // of the mean field, by repair [-]
 
 	void collectBodies(Scene& scene, const IntegratorPlan& plan);
 	/// @param warmStart  factor for the stored impulses: ratio of time steps, or 0 to start from nothing

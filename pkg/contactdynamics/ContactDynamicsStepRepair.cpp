@@ -66,6 +66,7 @@ void ContactDynamicsStep::findPairs()
 void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowed)
 {
 	remainingOverlap = repairDisplacement = 0;
+	repairStrain.setZero();
 	Real deepest = 0; // to be repaired, in sizes
 	findPairs();
 	for (const TouchingPair& pair : pairs) {
@@ -101,17 +102,23 @@ void ContactDynamicsStep::displace(Scene& scene, Real share, Real allowed)
 	}
 	remainingOverlap = repair.remainingOverlap(candidates);
 	repairDisplacement = repair.largestDisplacement();
+	repairStrain = repair.strain();
 
 	Real work = 0, workOfGravity = 0;
+	const bool fieldMoves = !repairStrain.isZero(0);
+	const Matrix3r strainAsVelocity = fieldMoves ? Matrix3r(planOfField->beforeStep(velGrad) * repairStrain) : Matrix3r(Matrix3r::Zero());
 	for (std::size_t index = 0; index < idOfIndex.size(); index++) {
-		const Vector3r& displacement = repair.displacement(static_cast<int>(index));
-		if (displacement == Vector3r::Zero()) continue;
+		const Vector3r& relative = repair.displacement(static_cast<int>(index));
+		if (relative == Vector3r::Zero() && !fieldMoves) continue;
 		const Body& body = *(*scene.bodies)[idOfIndex[index]];
-		body.state->pos += displacement;
-		// A changing periodic cell gives velocity by position: the velocity at the end of the step must not see that this is another one now.
+		const Vector3r displacement = fieldMoves ? Vector3r(relative + repairStrain * body.state->pos) : relative;
+		// A changing periodic cell gives velocity by position: the velocity at the end of the step must not see that this is another one now, but
+		// that of the field where the field itself has carried the body.
 		body.state->vel -= displacementAsVelocity * displacement;
-		work += motions[index].load.dot(displacement);
-		workOfGravity += body.state->mass * gravity.dot(displacement);
+		if (fieldMoves) body.state->vel += strainAsVelocity * body.state->pos;
+		body.state->pos += displacement;
+		work += motions[index].load.dot(relative);
+		workOfGravity += body.state->mass * gravity.dot(relative);
 		// Members at once, too: the integrator takes the torque of their contact forces about the position of the clump.
 		if (!body.isClump()) continue;
 		for (const auto& member : static_cast<const Clump&>(*body.shape).members) (*scene.bodies)[member.first]->state->pos += displacement;

@@ -30,10 +30,10 @@ void ContactEnergy::addStretch(const ContactDynamicsPhys& phys, Real timeStep)
 	if (phys.ks > 0) stored += 0.5 * phys.ks * (phys.stretch - 0.5 * timeStep * phys.stretchRate).squaredNorm();
 }
 
-void ContactEnergy::reportRepair(EnergyTracker& tracker, Real work, Real workOfGravity)
+void ContactEnergy::reportRepair(EnergyTracker& tracker, Real work, Real known, const char* term)
 {
 	addTo(tracker, "contactRepair", work);
-	if (workOfGravity != 0) addTo(tracker, "gravWork", -workOfGravity);
+	if (known != 0) addTo(tracker, term, -known);
 }
 
 Real ContactEnergy::report(EnergyTracker& tracker, Real storedBefore) const

@@ -26,9 +26,9 @@ public:
 
 	/// Hands the terms to O.energy. `storedBefore` is the elastic energy after the step before; returns that of now [J].
 	Real report(EnergyTracker& tracker, Real storedBefore) const;
-	/// Repair displaces bodies against the external forces: `work` of all of them, `workOfGravity` of gravity alone [J]. The latter is part of YADE's
-	/// own gravWork, which counts displacements by velocity only.
-	static void reportRepair(EnergyTracker& tracker, Real work, Real workOfGravity);
+	/// Repair displaces bodies against the external forces, and a cell against its stress: `work` of all of them, `known` of those whose work is in
+	/// a term of O.energy that counts displacements by velocity only [J]: gravity in YADE's own `gravWork`, stress under control in `velGradWork`.
+	static void reportRepair(EnergyTracker& tracker, Real work, Real known, const char* term = "gravWork");
 
 private:
 	Real friction = 0, rolling = 0, impact = 0, restitution = 0, cohesion = 0, compliant = 0, stored = 0, boundary = 0;

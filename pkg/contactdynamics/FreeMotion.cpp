@@ -25,12 +25,12 @@ void IntegratorPlan::useVelGrad(const Matrix3r& gradient)
 	spinChange = Vector3r(-spin(1, 2), spin(0, 2), -spin(0, 1));
 }
 
-Matrix3r IntegratorPlan::velocityOfDisplacement() const
+Matrix3r IntegratorPlan::beforeStep(const Matrix3r& gradient) const
 {
-	if (!periodic || !homoDeform) return Matrix3r::Zero();
-	const Matrix3r growth = homoDeform > 1 ? Matrix3r(Matrix3r::Identity() + h * prevVelGrad) : Matrix3r(Matrix3r::Identity());
-	return growth.inverse() * velGradChange;
+	return homoDeform > 1 ? Matrix3r((Matrix3r::Identity() + h * prevVelGrad).inverse() * gradient) : gradient;
 }
+
+Matrix3r IntegratorPlan::velocityOfDisplacement() const { return periodic && homoDeform ? beforeStep(velGradChange) : Matrix3r(Matrix3r::Zero()); }
 
 FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, const Body& body, const Vector3r& force, const Vector3r& torque)
 {

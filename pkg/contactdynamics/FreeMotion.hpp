@@ -22,6 +22,8 @@ struct IntegratorPlan {
 	IntegratorPlan(const Scene& scene, const NewtonIntegrator& newton);
 	/// The same plan with another gradient to switch to.
 	void useVelGrad(const Matrix3r& gradient);
+	/// What has to be added to a velocity before the step so that a velocity of this gradient is added to it after the step [1/s].
+	Matrix3r beforeStep(const Matrix3r& gradient) const;
 	/// Velocity before the step that has the same effect on the velocity after it as a displacement before the step, per displacement [1/s]:
 	/// the mean field of a periodic cell that changes in this step. Zero otherwise.
 	Matrix3r velocityOfDisplacement() const;

@@ -22,7 +22,12 @@ PenetrationRepair::Row PenetrationRepair::describe(const contactdynamics::Contac
 	row.body1 = contact.body1;
 	row.body2 = contact.body2;
 	row.normal = contact.normal;
-	const Real mobility = contact.normal.dot((mobilities[row.body1] + mobilities[row.body2]).cwiseProduct(contact.normal));
+	Real mobility = contact.normal.dot((mobilities[row.body1] + mobilities[row.body2]).cwiseProduct(contact.normal));
+	if (fieldYields) {
+		const Matrix3r dyad = contact.normal * (contact.arm1 - contact.arm2).transpose();
+		row.stretch = 0.5 * (dyad + dyad.transpose());
+		mobility += fieldMobility.cwiseProduct(row.stretch).cwiseProduct(row.stretch).sum();
+	}
 	row.weight = mobility > 0 ? 1 / mobility : 0;
 	const bool loaded = contact.impulse != Vector3r::Zero();
 	const Real room = candidate.gap + 0.5 * allowed * candidate.size;
@@ -38,13 +43,20 @@ void PenetrationRepair::move(const Row& row, Real pseudoImpulse)
 	const Vector3r along = pseudoImpulse * row.normal;
 	displacements[row.body1] -= mobilities[row.body1].cwiseProduct(along);
 	displacements[row.body2] += mobilities[row.body2].cwiseProduct(along);
+	if (fieldYields) fieldStrain += pseudoImpulse * fieldMobility.cwiseProduct(row.stretch);
+}
+
+/// Change of the distance of the two bodies so far, d_N [m].
+Real PenetrationRepair::way(const Row& row) const
+{
+	const Real ofBodies = row.normal.dot(displacements[row.body2] - displacements[row.body1]);
+	return fieldYields ? ofBodies + fieldStrain.cwiseProduct(row.stretch).sum() : ofBodies;
 }
 
 /// Solves one row, all others held; returns the change of the distance of the two bodies [m].
 Real PenetrationRepair::visit(const Row& row, Real& pseudoImpulse)
 {
-	const Real way = row.normal.dot(displacements[row.body2] - displacements[row.body1]);
-	const Real rigid = pseudoImpulse + row.weight * (row.target - way);
+	const Real rigid = pseudoImpulse + row.weight * (row.target - way(row));
 	const Real change = (rigid > 0 ? rigid : row.yielding * rigid) - pseudoImpulse;
 	if (change == 0) return 0;
 	pseudoImpulse += change;
@@ -53,12 +65,13 @@ Real PenetrationRepair::visit(const Row& row, Real& pseudoImpulse)
 }
 
 /// There and back in turn. After the first sweep only rows with a body that the last one displaced are visited: most overlaps are few and far apart.
+/// A field that yields brings every row's share.
 void PenetrationRepair::sweep(std::vector<Candidate>& candidates, Real unnoticed)
 {
 	const auto count = static_cast<long>(rows.size());
 	stirred.assign(displacements.size(), 1);
 	for (int done = 0; done < sweeps; done++) {
-		restless.assign(displacements.size(), 0);
+		restless.assign(displacements.size(), fieldYields);
 		bool any = false;
 		for (long k = 0; k < count; k++) {
 			const long i = done % 2 == 0 ? k : count - 1 - k;
@@ -77,6 +90,9 @@ void PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, std::
 	displacements.assign(solved.bodies.size(), Vector3r::Zero());
 	mobilities.resize(solved.bodies.size());
 	for (std::size_t i = 0; i < solved.bodies.size(); i++) mobilities[i] = solved.bodies[i].inverseMass;
+	fieldYields = solved.meanField && !solved.meanField->inverseMass.isZero(0);
+	if (fieldYields) fieldMobility = solved.meanField->inverseMass;
+	fieldStrain.setZero();
 	rows.clear();
 	Real smallest = std::numeric_limits<Real>::infinity(), asked = 0;
 	for (Candidate& candidate : candidates) {
@@ -98,18 +114,21 @@ void PenetrationRepair::limit(Real allowedDisplacement)
 {
 	largest = 0;
 	for (const Vector3r& displacement : displacements) largest = std::max(largest, displacement.norm());
+	if (fieldYields) {
+		Real ofField = 0;
+		for (const Row& row : rows) ofField = std::max(ofField, std::abs(fieldStrain.cwiseProduct(row.stretch).sum()));
+		largest += ofField;
+	}
 	if (largest <= allowedDisplacement) return;
 	for (Vector3r& displacement : displacements) displacement *= allowedDisplacement / largest;
+	fieldStrain *= allowedDisplacement / largest;
 	largest = allowedDisplacement;
 }
 
 Real PenetrationRepair::remainingOverlap(const std::vector<Candidate>& candidates) const
 {
 	Real remaining = 0;
-	for (std::size_t i = 0; i < rows.size(); i++) {
-		const Row& row = rows[i];
-		remaining = std::max(remaining, -(candidates[i].deepest + row.normal.dot(displacements[row.body2] - displacements[row.body1])));
-	}
+	for (std::size_t i = 0; i < rows.size(); i++) remaining = std::max(remaining, -(candidates[i].deepest + way(rows[i])));
 	return remaining;
 }
 

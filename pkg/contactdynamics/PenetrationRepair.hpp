@@ -24,6 +24,9 @@ namespace yade {
 ///
 /// A few sweeps a step are enough, from the pseudo-impulses of the step before: what is left is overlap or gap, never energy, and its turn comes.
 /// They are stored over the largest displacement asked for, because all displacements shrink in proportion.
+///
+/// Where contact impulses move a mean field, the cell of a jammed packing, the pseudo-impulses strain it, too (MeanField): d are displacements
+/// relative to the field, and the strain E adds E b to that of a contact. In a fixed cell such a packing has nowhere to go.
 class PenetrationRepair {
 public:
 	/// What the repair needs to know of a contact beside the solved problem.
@@ -41,8 +44,9 @@ public:
 	/// @param allowed     overlap that is left alone, in sizes [-], >= 0
 	void solve(const contactdynamics::GrainProblem& solved, std::vector<Candidate>& candidates, Real share, Real allowed);
 
-	const Vector3r& displacement(int body) const { return displacements[body]; } // by solver index [m]
-	Real largestDisplacement() const { return largest; }						 // [m]
+	const Vector3r& displacement(int body) const { return displacements[body]; } // by solver index, relative to the mean field [m]
+	const Matrix3r& strain() const { return fieldStrain; }						 // of the mean field [-], symmetric
+	Real largestDisplacement() const { return largest; }						 // of a body, and of a neighbour with the field [m]
 	Real remainingOverlap(const std::vector<Candidate>& candidates) const;		 // largest, at the end of the step [m]
 
 	/// Largest displacement of a body in a step, in the smallest size: a fifth of the least proximity margin, so that no contact comes unseen.
@@ -52,17 +56,21 @@ private:
 	struct Row {
 		int body1, body2;
 		Vector3r normal;
-		Real target;   // -s [m]
-		Real weight;   // 1 / W [kg]
-		Real yielding; // of the pull: p < 0 shrinks by this factor; 0: no pull
+		Matrix3r stretch; // d_N per strain of the field: sym(normal b^T) [m]
+		Real target;	  // -s [m]
+		Real weight;	  // 1 / W [kg]
+		Real yielding;	  // of the pull: p < 0 shrinks by this factor; 0: no pull
 	};
 	std::vector<Row> rows; // parallel to the candidates
 	std::vector<Vector3r> displacements, mobilities;
+	bool fieldYields = false;					 // only then has any Row a stretch
+	Matrix3r fieldMobility, fieldStrain;		 // 1/M of the field [1/(kg m2)], E
 	std::vector<std::uint8_t> stirred, restless; // bodies that the last sweep displaced, and this one
 	Real largest = 0;
 
 	Row describe(const contactdynamics::Contact& contact, const Candidate& candidate, Real share, Real allowed) const;
 	void move(const Row& row, Real pseudoImpulse);
+	Real way(const Row& row) const;
 	Real visit(const Row& row, Real& pseudoImpulse);
 	void sweep(std::vector<Candidate>& candidates, Real unnoticed);
 	void limit(Real allowedDisplacement);

@@ -63,8 +63,8 @@ def test_frictionless_balls_jam_isostatically() -> None:
     assert pressures() == pytest.approx([1, 1, 1], abs=1e-4)
     assert coordination(4) == pytest.approx(6, abs=0.12)
     assert 0.61 < 1 - utils.porosity() < 0.66
-    # No repair under a prescribed stress: what 1200 steps at a tolerance of 1e-4 have left stays, a residual of a step's motion each.
-    assert cd().maxPenetration < 1e-3 * RADIUS
+    # The cell gives way to the repair: no overlap stays that is deeper than allowed, of the largest grain; what a step adds is 1e-8 of its motion.
+    assert cd().maxPenetration <= 1.1 * cd().allowedOverlap * RADIUS
 
 
 def test_friction_needs_fewer_contacts_and_shear_keeps_the_pressure() -> None:

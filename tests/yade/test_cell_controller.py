@@ -61,6 +61,7 @@ def test_cell_obeys_its_equation_of_motion(mask: int, homo_deform: int) -> None:
 def test_contact_law_holds_for_the_motion_of_the_cell() -> None:
     """Velocities after the step and the gradient that the cell moves with give the local velocity of every contact."""
     dense(tolerance=1e-9)
+    cd().repairRate = 0  # it strains the cell behind the solve
     across = 0
     for _ in range(20):
         places = {b.id: Vector3(b.state.pos) for b in O.bodies}
@@ -120,6 +121,66 @@ def test_full_cell_that_is_compressed_at_a_given_rate(capfd) -> None:
     c.velGrad = Matrix3.Zero
     steps(2)
     assert cd().converged
+
+
+def lattice(overlap: float, **more):
+    """4 × 4 × 4 balls of radius 1 in a cubic lattice that fills the cell and overlaps all along its edges."""
+    cases.seen.clear()
+    O.periodic = True
+    edge = 2 - overlap
+    O.cell.setBox(4 * edge, 4 * edge, 4 * edge)
+    material(friction=0.5)
+    for k in range(64):
+        grain(edge * (np.array([k % 4, k // 4 % 4, k // 16]) + 0.5))
+    equip(1e-3, gravity=(0, 0, 0), tolerance=1e-13)
+    return control(stress=Matrix3(-PRESSURE, 0, 0, 0, -PRESSURE, 0, 0, 0, -PRESSURE), stressMask=7, **more)
+
+
+def test_repair_strains_the_cell_under_stress() -> None:
+    """A jammed lattice can lose its overlaps only with the cell: it grows to the balls' own size, without velocity, against the pressure."""
+    overlap = 1e-3
+    c = lattice(overlap)
+    O.trackEnergy = True
+    start, volume = matrix(O.cell.hSize), O.cell.volume
+    for _ in range(150):
+        O.step()
+        # A tenth of the overlap a step would be 0.1 m/s. The solve leaves 1e-13 of the pressure on a grain, PRESSURE * 4 / mass * dt = 1e-3 m/s and less.
+        assert max(b.state.vel.norm() for b in O.bodies) < 1e-9
+    edges = matrix(O.cell.hSize)
+    # allowedOverlap is 1e-5 of a radius; a loaded contact keeps some of it.
+    assert cd().remainingOverlap <= 1e-5
+    assert (np.diag(edges) >= 4 * (2 - 1e-5)).all() and (np.diag(edges) <= 8 + 1e-9).all()
+    assert cd().activeContacts == 3 * 64
+    # Products of 150 matrices, each with an error of a rounding or two.
+    assert matrix(O.cell.trsf) @ start == pytest.approx(edges, abs=1e-12)
+    # Of second order in the strain of a step, at most 1e-4.
+    assert O.energy["contactRepair"] == pytest.approx(-PRESSURE * (O.cell.volume - volume), rel=1e-4)
+    assert O.energy["velGradWork"] == pytest.approx(-c.work, rel=1e-12)
+
+
+@pytest.mark.parametrize("homo_deform", [1, 2, 3])
+def test_bodies_that_repair_moves_with_the_cell_take_its_velocity(homo_deform: int) -> None:
+    """In a cell that shears: what the strain E carries from x to (1 + E) x has the mean field's velocity there, L (1 + E) x, and no other."""
+    found = []
+    for rate in (0, 0.1):
+        O.reset()
+        lattice(1e-3, velGrad=SHEARED)
+        O.cell.homoDeform = homo_deform
+        steps(3)
+        places = {b.id: Vector3(b.state.pos) for b in O.bodies}
+        before = matrix(O.cell.hSize)
+        cd().repairRate = rate
+        O.step()
+        # The step begins by straining the cell with the gradient of the step before.
+        found.append((places, matrix(O.cell.hSize), matrix(O.cell.velGrad), {b.id: vec(b.state.vel) for b in O.bodies}, before))
+        cd().repairRate = 0
+    (places, still, gradient, without, _), (_, strained, same, with_repair, _) = found
+    assert (gradient == same).all()
+    strain = strained @ np.linalg.inv(still) - np.eye(3)
+    assert strain.trace() > 1e-5
+    size = np.abs(gradient).max() * 8
+    for number, place in places.items():
+        assert with_repair[number] - without[number] == pytest.approx(gradient @ strain @ vec(place), abs=1e-13 * size)
 
 
 def test_cell_without_contact_falls_freely() -> None:
@@ -402,6 +463,7 @@ def test_problem_with_the_motion_of_the_cell_in_it(rate: float) -> None:
     taken from YADE's own masses, positions and cell.
     """
     c = dense(tolerance=1e-8, maxStrainRate=rate)
+    cd().repairRate = 0  # it strains the cell behind the solve
     steps(25)
     places = {b.id: vec(b.state.pos) for b in O.bodies}
     O.step()
