@@ -67,7 +67,12 @@ bool ContactDynamicsCellController::controlsStress(int row, int column) const { 
 Real ContactDynamicsCellController::inertiaFor(const Scene& scene) const
 {
 	if (inertia > 0) return inertia;
-	if (inertiaInUse > 0) return inertiaInUse;
+	return inertiaInUse > 0 ? inertiaInUse : inertiaOfBodies(scene);
+}
+
+/// The default; 0 if no body is movable.
+Real ContactDynamicsCellController::inertiaOfBodies(const Scene& scene)
+{
 	const auto bodies = MovableBodies::of(scene, [](const Body&) { return true; });
 	return bodies.mass > 0 ? bodies.mass * std::pow(scene.cell->hSize.determinant() / bodies.count, Real(2) / 3) / 3 : 0;
 }
@@ -161,6 +166,18 @@ void ContactDynamicsCellController::apply(Scene& scene, const Matrix3r& gradient
 	cell.velGradChanged = true;
 }
 
+Matrix3r ContactDynamicsCellController::mobilityForRepair(const Scene& scene) const
+{
+	Matrix3r mobility = Matrix3r::Zero();
+	if (!controlsStress(0, 0) || !controlsStress(1, 1) || !controlsStress(2, 2)) return mobility;
+	const Real M = inertiaOfBodies(scene);
+	if (!(M > 0)) return mobility;
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j < 3; j++)
+			if (controlsStress(i, j)) mobility(i, j) = 1 / M;
+	return mobility;
+}
+
 void ContactDynamicsCellController::yieldToRepair(Scene& scene, const Matrix3r& strain, const Matrix3r& otherStress)
 {
 	if (strain.isZero(0)) return;
@@ -169,8 +186,9 @@ void ContactDynamicsCellController::yieldToRepair(Scene& scene, const Matrix3r& 
 	work += ofGoal;
 	if (scene.trackEnergy)
 		ContactEnergy::reportRepair(*scene.energy, ofGoal - volume * otherStress.cwiseProduct(strain).sum(), ofGoal, "velGradWork");
-	cell.hSize += strain * cell.hSize; // the next step derives all else of the cell from it
+	cell.hSize += strain * cell.hSize;
 	cell.trsf += strain * cell.trsf;
+	cell.integrateAndUpdate(0); // all else that the cell derives from them
 }
 
 } // namespace yade

@@ -24,8 +24,11 @@ public:
 	/// Hands the gradient at the solution to the cell and reports.
 	/// @param moment  see ContactDynamicsStep::moment() [N m s]
 	void apply(Scene& scene, const Matrix3r& gradient, const Matrix3r& moment, const Matrix3r& otherStress);
-	/// Strains the cell as penetration repair has strained the mean field, without velocity. The work of stresses in it is booked as that of forces
-	/// is, see ContactEnergy::reportRepair().
+	/// How far the cell gives way to penetration repair, 1/M by component of the strain [1/(kg m2)]: if all three normal components are under stress,
+	/// those under stress with the default inertia, because the one in use may be of any size, and here it is only a measure. Zero otherwise.
+	Matrix3r mobilityForRepair(const Scene& scene) const;
+	/// Strains the cell with penetration repair, without velocity. The work of the stress is booked as that of forces is, see
+	/// ContactEnergy::reportRepair().
 	void yieldToRepair(Scene& scene, const Matrix3r& strain, const Matrix3r& otherStress);
 
 	/// What may come in the next step, for those who look ahead: the reach of bodies, the time step.
@@ -43,6 +46,7 @@ private:
 	void requireAdmissible() const;
 	bool controlsStress(int row, int column) const;
 	Real inertiaFor(const Scene& scene) const;
+	static Real inertiaOfBodies(const Scene& scene);
 
 public:
 	// clang-format off
@@ -59,7 +63,7 @@ public:
 		((int,stressMask,7,Attr::triggerPostLoad,"Which components are under stress: sum of 1 (xx), 2 (yy), 4 (zz), 8 (yz), 16 (zx) and 32 (xy) [-], 0 … 63, as in :yref:`Peri3dController.stressMask`. Default 7: pressure on three sides, shear at given rate."))
 		((Real,inertia,0,Attr::triggerPostLoad,"Inertia M of the cell [kg·m²], ≥ 0; its kinetic energy is M·(L:L)/2 over the components under stress. 0 (default): a third of the mass of all movable bodies times (V/N)^(2/3), N their number and V the volume in the first step, that is about the square of a diameter; kept in :yref:`inertiaInUse<ContactDynamicsCellController.inertiaInUse>`. "
 			"At that the cell follows within a time d·sqrt(density/pressure), like the grains, and costs the solver few sweeps; a lighter cell holds the stress closer in fast motion but needs more sweeps, a heavier one lets it fluctuate more. Negative or not finite: ValueError."))
-		((Real,maxStrainRate,std::numeric_limits<Real>::infinity(),Attr::triggerPostLoad,"Largest magnitude of a component of the symmetric velocity gradient under stress [1/s], > 0, held by whatever force it takes: a loose assembly is then compressed at this rate instead of being accelerated. Where the bound acts the stress is below its goal. Default: infinite."))
+		((Real,maxStrainRate,std::numeric_limits<Real>::infinity(),Attr::triggerPostLoad,"Largest magnitude of a component of the symmetric velocity gradient under stress [1/s], > 0, held by whatever force it takes (strain by penetration repair does not count): a loose assembly is then compressed at this rate instead of being accelerated. Where the bound acts the stress is below its goal. Default: infinite."))
 		((Matrix3r,currentStress,Matrix3r::Zero(),Attr::readonly,"Stress in the last step [Pa], as :yref:`stress<ContactDynamicsCellController.stress>`; equal to ``utils.getStress()`` evaluated behind :yref:`ContactDynamicsEngine`, before the bodies move, but for what penetration repair has moved them and the cell by."))
 		((Real,inertiaInUse,0,Attr::readonly,"Inertia in the last step [kg·m²]; 0 before the first."))
 		((Real,work,0,Attr::readonly,"Work done by the cell on its contents since the start [J]: sum of h·V·σ:(L⁻+L⁺)/2, and of V·σ_goal:E for strains E by penetration repair. With ``O.trackEnergy`` its negative is ``O.energy['velGradWork']``, as of :yref:`PeriTriaxController`."))

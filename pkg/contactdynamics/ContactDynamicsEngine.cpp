@@ -143,7 +143,11 @@ void ContactDynamicsEngine::apply()
 
 void ContactDynamicsEngine::repair()
 {
-	step->repairPenetration(*scene, repairRate, allowedOverlap);
+	const Matrix3r cellMobility = cellController ? cellController->mobilityForRepair(*scene) : Matrix3r(Matrix3r::Zero());
+	// Where part of the cell's strain is under stress and part is given, a jammed packing may have nowhere to go, and the stress would pull against
+	// the repair for ever.
+	const bool rests = cellController && cellController->stressMask != 0 && cellMobility.isZero(0);
+	step->repairPenetration(*scene, rests ? 0 : repairRate, allowedOverlap, cellMobility);
 	if (cellController) cellController->yieldToRepair(*scene, step->repairStrain, otherStress);
 	remainingOverlap = step->remainingOverlap;
 	repairDisplacement = step->repairDisplacement;

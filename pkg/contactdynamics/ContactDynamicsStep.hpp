@@ -37,8 +37,8 @@ struct ContactDynamicsStep {
 	Real meanPenetration = 0;				  // [m], mean over the active contacts
 	Real elasticEnergy = 0;					  // of compliant contacts [J], while O.trackEnergy
 	Real remainingOverlap = 0;				  // largest at the end of the step, repair included [m]
-	Real repairDisplacement = 0;			  // largest of a body, relative to a mean field that yields, and of two neighbours by the field [m]
-	Matrix3r repairStrain = Matrix3r::Zero(); // of the mean field, by repair [-]
+	Real repairDisplacement = 0;			  // see PenetrationRepair::largestDisplacement() [m]
+	Matrix3r repairStrain = Matrix3r::Zero(); // of the periodic cell, by repair [-]
 
 	void collectBodies(Scene& scene, const IntegratorPlan& plan);
 	/// @param warmStart  factor for the stored impulses: ratio of time steps, or 0 to start from nothing
@@ -54,7 +54,8 @@ struct ContactDynamicsStep {
 	/// After apply(): displaces bodies that overlap, see PenetrationRepair.
 	/// @param rate     largest share of an overlap that is taken away [-], 0 ... 1; 0 only measures
 	/// @param allowed  overlap that is left alone, in sizes of the contact [-], >= 0
-	void repairPenetration(Scene& scene, Real rate, Real allowed);
+	/// @param cellMobility  see PenetrationRepair::solve()
+	void repairPenetration(Scene& scene, Real rate, Real allowed, const Matrix3r& cellMobility);
 
 	std::vector<Twist> end() const; // velocities at the end of the step by solver index
 	boost::python::list velocitiesById(const std::vector<Twist>& twists) const;
@@ -135,7 +136,7 @@ private:
 	Real gapAfterMotion(std::size_t contact) const;
 	Real gapToRepair(const TouchingPair& pair) const;
 	void findPairs();
-	void displace(Scene& scene, Real share, Real allowed);
+	void displace(Scene& scene, Real share, Real allowed, const Matrix3r& cellMobility);
 
 	bool solved = false; // problem holds a solution
 	Real h = 0;

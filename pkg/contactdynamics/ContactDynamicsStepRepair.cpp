@@ -63,7 +63,7 @@ void ContactDynamicsStep::findPairs()
 	for (TouchingPair& pair : pairs) pair.gap = gapToRepair(pair);
 }
 
-void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowed)
+void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowed, const Matrix3r& cellMobility)
 {
 	remainingOverlap = repairDisplacement = 0;
 	repairStrain.setZero();
@@ -74,13 +74,13 @@ void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowe
 		deepest = std::max(deepest, -pair.gap / pair.size);
 	}
 	if (rate > 0 && deepest > allowed) {
-		displace(scene, std::min(rate, std::max(leastShare, gentleStep / deepest)), allowed);
+		displace(scene, std::min(rate, std::max(leastShare, gentleStep / deepest)), allowed, cellMobility);
 		return;
 	}
 	for (const Link& link : links) link.phys->pseudoImpulse = 0;
 }
 
-void ContactDynamicsStep::displace(Scene& scene, Real share, Real allowed)
+void ContactDynamicsStep::displace(Scene& scene, Real share, Real allowed, const Matrix3r& cellMobility)
 {
 	candidates.clear();
 	pairOf.clear();
@@ -95,7 +95,7 @@ void ContactDynamicsStep::displace(Scene& scene, Real share, Real allowed)
 		candidates.push_back({static_cast<int>(its), pair.gap, pair.deepest, pair.size, links[pair.first].phys->pseudoImpulse});
 		pairOf.push_back(k);
 	}
-	repair.solve(problem, candidates, share, allowed);
+	repair.solve(problem, candidates, share, allowed, cellMobility);
 	for (std::size_t k = 0; k < candidates.size(); k++) {
 		const TouchingPair& pair = pairs[pairOf[k]];
 		for (std::size_t i = pair.first; i < pair.last; i++) links[i].phys->pseudoImpulse = candidates[k].pseudoImpulse;
@@ -105,20 +105,22 @@ void ContactDynamicsStep::displace(Scene& scene, Real share, Real allowed)
 	repairStrain = repair.strain();
 
 	Real work = 0, workOfGravity = 0;
-	const bool fieldMoves = !repairStrain.isZero(0);
-	const Matrix3r strainAsVelocity = fieldMoves ? Matrix3r(planOfField->beforeStep(velGrad) * repairStrain) : Matrix3r(Matrix3r::Zero());
+	const bool cellMoves = !repairStrain.isZero(0);
+	const Matrix3r strainAsVelocity = cellMoves ? Matrix3r(planOfField->beforeStep(velGrad) * repairStrain) : Matrix3r(Matrix3r::Zero());
 	for (std::size_t index = 0; index < idOfIndex.size(); index++) {
 		const Vector3r& relative = repair.displacement(static_cast<int>(index));
-		if (relative == Vector3r::Zero() && !fieldMoves) continue;
+		if (relative == Vector3r::Zero() && !cellMoves) continue;
 		const Body& body = *(*scene.bodies)[idOfIndex[index]];
-		const Vector3r displacement = fieldMoves ? Vector3r(relative + repairStrain * body.state->pos) : relative;
-		// A changing periodic cell gives velocity by position: the velocity at the end of the step must not see that this is another one now, but
-		// that of the field where the field itself has carried the body.
+		const Vector3r withCell = cellMoves ? Vector3r(repairStrain * body.state->pos) : Vector3r(Vector3r::Zero());
+		const Vector3r displacement = relative + withCell;
+		// A changing periodic cell gives velocity by position: the velocity at the end of the step must not see that this is another one now, but be
+		// that of the mean field where the cell has carried the body.
 		body.state->vel -= displacementAsVelocity * displacement;
-		if (fieldMoves) body.state->vel += strainAsVelocity * body.state->pos;
+		if (cellMoves) body.state->vel += strainAsVelocity * body.state->pos;
 		body.state->pos += displacement;
-		work += motions[index].load.dot(relative);
-		workOfGravity += body.state->mass * gravity.dot(relative);
+		const Vector3r weight = body.state->mass * gravity;
+		work += motions[index].load.dot(relative) + weight.dot(withCell);
+		workOfGravity += weight.dot(displacement);
 		// Members at once, too: the integrator takes the torque of their contact forces about the position of the clump.
 		if (!body.isClump()) continue;
 		for (const auto& member : static_cast<const Clump&>(*body.shape).members) (*scene.bodies)[member.first]->state->pos += displacement;

@@ -15,18 +15,17 @@ constexpr Real settled = 1e-3;
 constexpr Real pullCompliance = 1e-3;
 } // namespace
 
-PenetrationRepair::Row PenetrationRepair::describe(const contactdynamics::Contact& contact, const Candidate& candidate, Real share,
-												   Real allowed) const
+PenetrationRepair::Row PenetrationRepair::describe(const contactdynamics::Contact& contact, const Candidate& candidate, Real share, Real allowed)
 {
 	Row row;
 	row.body1 = contact.body1;
 	row.body2 = contact.body2;
 	row.normal = contact.normal;
 	Real mobility = contact.normal.dot((mobilities[row.body1] + mobilities[row.body2]).cwiseProduct(contact.normal));
-	if (fieldYields) {
+	if (cellYields) {
 		const Matrix3r dyad = contact.normal * (contact.arm1 - contact.arm2).transpose();
-		row.stretch = 0.5 * (dyad + dyad.transpose());
-		mobility += fieldMobility.cwiseProduct(row.stretch).cwiseProduct(row.stretch).sum();
+		stretches.emplace_back(0.5 * (dyad + dyad.transpose()));
+		mobility += mobilityOfCell.cwiseProduct(stretches.back()).cwiseProduct(stretches.back()).sum();
 	}
 	row.weight = mobility > 0 ? 1 / mobility : 0;
 	const bool loaded = contact.impulse != Vector3r::Zero();
@@ -38,46 +37,48 @@ PenetrationRepair::Row PenetrationRepair::describe(const contactdynamics::Contac
 	return row;
 }
 
-void PenetrationRepair::move(const Row& row, Real pseudoImpulse)
+/// Change of the distance of the two bodies so far [m].
+Real PenetrationRepair::way(std::size_t i) const
 {
+	const Row& row = rows[i];
+	return row.normal.dot(displacements[row.body2] - displacements[row.body1]) + stretch(i);
+}
+
+void PenetrationRepair::move(std::size_t i, Real pseudoImpulse)
+{
+	const Row& row = rows[i];
 	const Vector3r along = pseudoImpulse * row.normal;
 	displacements[row.body1] -= mobilities[row.body1].cwiseProduct(along);
 	displacements[row.body2] += mobilities[row.body2].cwiseProduct(along);
-	if (fieldYields) fieldStrain += pseudoImpulse * fieldMobility.cwiseProduct(row.stretch);
-}
-
-/// Change of the distance of the two bodies so far, d_N [m].
-Real PenetrationRepair::way(const Row& row) const
-{
-	const Real ofBodies = row.normal.dot(displacements[row.body2] - displacements[row.body1]);
-	return fieldYields ? ofBodies + fieldStrain.cwiseProduct(row.stretch).sum() : ofBodies;
+	if (cellYields) cellStrain += pseudoImpulse * mobilityOfCell.cwiseProduct(stretches[i]);
 }
 
 /// Solves one row, all others held; returns the change of the distance of the two bodies [m].
-Real PenetrationRepair::visit(const Row& row, Real& pseudoImpulse)
+Real PenetrationRepair::visit(std::size_t i, Real& pseudoImpulse)
 {
-	const Real rigid = pseudoImpulse + row.weight * (row.target - way(row));
+	const Row& row = rows[i];
+	const Real rigid = pseudoImpulse + row.weight * (row.target - way(i));
 	const Real change = (rigid > 0 ? rigid : row.yielding * rigid) - pseudoImpulse;
 	if (change == 0) return 0;
 	pseudoImpulse += change;
-	move(row, change);
+	move(i, change);
 	return std::abs(change) / row.weight;
 }
 
 /// There and back in turn. After the first sweep only rows with a body that the last one displaced are visited: most overlaps are few and far apart.
-/// A field that yields brings every row's share.
+/// A cell that yields concerns every row.
 void PenetrationRepair::sweep(std::vector<Candidate>& candidates, Real unnoticed)
 {
 	const auto count = static_cast<long>(rows.size());
 	stirred.assign(displacements.size(), 1);
 	for (int done = 0; done < sweeps; done++) {
-		restless.assign(displacements.size(), fieldYields);
+		restless.assign(displacements.size(), cellYields);
 		bool any = false;
 		for (long k = 0; k < count; k++) {
 			const long i = done % 2 == 0 ? k : count - 1 - k;
 			const Row& row = rows[i];
 			if (!(stirred[row.body1] || stirred[row.body2]) || row.weight == 0) continue;
-			if (visit(row, candidates[i].pseudoImpulse) <= unnoticed) continue;
+			if (visit(i, candidates[i].pseudoImpulse) <= unnoticed) continue;
 			restless[row.body1] = restless[row.body2] = any = true;
 		}
 		if (!any) return;
@@ -85,15 +86,17 @@ void PenetrationRepair::sweep(std::vector<Candidate>& candidates, Real unnoticed
 	}
 }
 
-void PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, std::vector<Candidate>& candidates, Real share, Real allowed)
+void PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, std::vector<Candidate>& candidates, Real share, Real allowed,
+							  const Matrix3r& cellMobility)
 {
 	displacements.assign(solved.bodies.size(), Vector3r::Zero());
 	mobilities.resize(solved.bodies.size());
 	for (std::size_t i = 0; i < solved.bodies.size(); i++) mobilities[i] = solved.bodies[i].inverseMass;
-	fieldYields = solved.meanField && !solved.meanField->inverseMass.isZero(0);
-	if (fieldYields) fieldMobility = solved.meanField->inverseMass;
-	fieldStrain.setZero();
+	cellYields = !cellMobility.isZero(0);
+	mobilityOfCell = cellMobility;
+	cellStrain.setZero();
 	rows.clear();
+	stretches.clear();
 	Real smallest = std::numeric_limits<Real>::infinity(), asked = 0;
 	for (Candidate& candidate : candidates) {
 		rows.push_back(describe(solved.contacts[candidate.contact], candidate, share, allowed));
@@ -103,7 +106,7 @@ void PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, std::
 		if (row.weight == 0 || (row.yielding == 0 && candidate.pseudoImpulse < 0)) candidate.pseudoImpulse = 0;
 	}
 	for (std::size_t i = 0; i < rows.size(); i++)
-		if (candidates[i].pseudoImpulse != 0) move(rows[i], candidates[i].pseudoImpulse *= asked);
+		if (candidates[i].pseudoImpulse != 0) move(i, candidates[i].pseudoImpulse *= asked);
 	sweep(candidates, settled * asked);
 	for (Candidate& candidate : candidates) candidate.pseudoImpulse /= asked;
 	limit(largestWay * smallest);
@@ -114,21 +117,19 @@ void PenetrationRepair::limit(Real allowedDisplacement)
 {
 	largest = 0;
 	for (const Vector3r& displacement : displacements) largest = std::max(largest, displacement.norm());
-	if (fieldYields) {
-		Real ofField = 0;
-		for (const Row& row : rows) ofField = std::max(ofField, std::abs(fieldStrain.cwiseProduct(row.stretch).sum()));
-		largest += ofField;
-	}
+	Real ofCell = 0;
+	for (std::size_t i = 0; i < stretches.size(); i++) ofCell = std::max(ofCell, std::abs(stretch(i)));
+	largest += ofCell;
 	if (largest <= allowedDisplacement) return;
 	for (Vector3r& displacement : displacements) displacement *= allowedDisplacement / largest;
-	fieldStrain *= allowedDisplacement / largest;
+	cellStrain *= allowedDisplacement / largest;
 	largest = allowedDisplacement;
 }
 
 Real PenetrationRepair::remainingOverlap(const std::vector<Candidate>& candidates) const
 {
 	Real remaining = 0;
-	for (std::size_t i = 0; i < rows.size(); i++) remaining = std::max(remaining, -(candidates[i].deepest + way(rows[i])));
+	for (std::size_t i = 0; i < rows.size(); i++) remaining = std::max(remaining, -(candidates[i].deepest + way(i)));
 	return remaining;
 }
 

@@ -25,8 +25,8 @@ namespace yade {
 /// A few sweeps a step are enough, from the pseudo-impulses of the step before: what is left is overlap or gap, never energy, and its turn comes.
 /// They are stored over the largest displacement asked for, because all displacements shrink in proportion.
 ///
-/// Where contact impulses move a mean field, the cell of a jammed packing, the pseudo-impulses strain it, too (MeanField): d are displacements
-/// relative to the field, and the strain E adds E b to that of a contact. In a fixed cell such a packing has nowhere to go.
+/// A periodic cell that gives way is strained by the pseudo-impulses, E = sum sym(p normal b^T) / M, as MeanField is by impulses: d are displacements
+/// relative to it, and E b is added at a contact. In a fixed cell a jammed packing has nowhere to go.
 class PenetrationRepair {
 public:
 	/// What the repair needs to know of a contact beside the solved problem.
@@ -42,36 +42,39 @@ public:
 	/// @param candidates  all contacts that the displacements might close; those that are left out are not looked after
 	/// @param share       of the room beyond the allowed overlap that is taken away [-], 0 ... 1
 	/// @param allowed     overlap that is left alone, in sizes [-], >= 0
-	void solve(const contactdynamics::GrainProblem& solved, std::vector<Candidate>& candidates, Real share, Real allowed);
+	/// @param cellMobility  1/M by component of the cell's strain, 0 where it does not give way [1/(kg m2)]
+	void solve(const contactdynamics::GrainProblem& solved, std::vector<Candidate>& candidates, Real share, Real allowed,
+			   const Matrix3r& cellMobility);
 
-	const Vector3r& displacement(int body) const { return displacements[body]; } // by solver index, relative to the mean field [m]
-	const Matrix3r& strain() const { return fieldStrain; }						 // of the mean field [-], symmetric
-	Real largestDisplacement() const { return largest; }						 // of a body, and of a neighbour with the field [m]
+	const Vector3r& displacement(int body) const { return displacements[body]; } // by solver index, relative to the cell [m]
+	const Matrix3r& strain() const { return cellStrain; }						 // E [-], symmetric
+	Real largestDisplacement() const { return largest; }						 // of a body relative to the cell, plus the largest |normal.E b| [m]
 	Real remainingOverlap(const std::vector<Candidate>& candidates) const;		 // largest, at the end of the step [m]
 
-	/// Largest displacement of a body in a step, in the smallest size: a fifth of the least proximity margin, so that no contact comes unseen.
+	/// Largest displacement in a step, in the smallest size: a fifth of the least proximity margin, so that no contact comes unseen.
 	static constexpr Real largestWay = 1e-2;
 
 private:
 	struct Row {
 		int body1, body2;
 		Vector3r normal;
-		Matrix3r stretch; // d_N per strain of the field: sym(normal b^T) [m]
-		Real target;	  // -s [m]
-		Real weight;	  // 1 / W [kg]
-		Real yielding;	  // of the pull: p < 0 shrinks by this factor; 0: no pull
+		Real target;   // -s [m]
+		Real weight;   // 1 / W [kg]
+		Real yielding; // of the pull: p < 0 shrinks by this factor; 0: no pull
 	};
-	std::vector<Row> rows; // parallel to the candidates
+	std::vector<Row> rows;			 // parallel to the candidates
+	std::vector<Matrix3r> stretches; // likewise, if the cell yields: change of distance per strain, sym(normal b^T) [m]
 	std::vector<Vector3r> displacements, mobilities;
-	bool fieldYields = false;					 // only then has any Row a stretch
-	Matrix3r fieldMobility, fieldStrain;		 // 1/M of the field [1/(kg m2)], E
+	bool cellYields = false;
+	Matrix3r mobilityOfCell, cellStrain;
 	std::vector<std::uint8_t> stirred, restless; // bodies that the last sweep displaced, and this one
 	Real largest = 0;
 
-	Row describe(const contactdynamics::Contact& contact, const Candidate& candidate, Real share, Real allowed) const;
-	void move(const Row& row, Real pseudoImpulse);
-	Real way(const Row& row) const;
-	Real visit(const Row& row, Real& pseudoImpulse);
+	Row describe(const contactdynamics::Contact& contact, const Candidate& candidate, Real share, Real allowed);
+	Real stretch(std::size_t row) const { return cellYields ? cellStrain.cwiseProduct(stretches[row]).sum() : 0; } // by the cell [m]
+	Real way(std::size_t row) const;
+	void move(std::size_t row, Real pseudoImpulse);
+	Real visit(std::size_t row, Real& pseudoImpulse);
 	void sweep(std::vector<Candidate>& candidates, Real unnoticed);
 	void limit(Real allowedDisplacement);
 };

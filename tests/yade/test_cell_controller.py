@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from yade import Matrix3, O, Vector3
@@ -132,7 +134,7 @@ def lattice(overlap: float, **more):
     material(friction=0.5)
     for k in range(64):
         grain(edge * (np.array([k % 4, k // 4 % 4, k // 16]) + 0.5))
-    equip(1e-3, gravity=(0, 0, 0), tolerance=1e-13)
+    equip(1e-3, gravity=(0, 0, 0), tolerance=1e-11)
     return control(stress=Matrix3(-PRESSURE, 0, 0, 0, -PRESSURE, 0, 0, 0, -PRESSURE), stressMask=7, **more)
 
 
@@ -142,45 +144,64 @@ def test_repair_strains_the_cell_under_stress() -> None:
     c = lattice(overlap)
     O.trackEnergy = True
     start, volume = matrix(O.cell.hSize), O.cell.volume
+    # What the solve leaves of the impulse of the pressure, tolerance * PRESSURE * 4 r^2 * dt = 4e-8 N s, in the 10,900 kg of a ball, were all of it on one
+    # ball and nothing taken back in the 150 steps: 6e-10 m/s. A tenth of the overlap in a step would be 0.1 m/s.
     for _ in range(150):
         O.step()
-        # A tenth of the overlap a step would be 0.1 m/s. The solve leaves 1e-13 of the pressure on a grain, PRESSURE * 4 / mass * dt = 1e-3 m/s and less.
-        assert max(b.state.vel.norm() for b in O.bodies) < 1e-9
+        assert max(b.state.vel.norm() for b in O.bodies) < 6e-10
     edges = matrix(O.cell.hSize)
     # allowedOverlap is 1e-5 of a radius; a loaded contact keeps some of it.
     assert cd().remainingOverlap <= 1e-5
-    assert (np.diag(edges) >= 4 * (2 - 1e-5)).all() and (np.diag(edges) <= 8 + 1e-9).all()
+    assert (np.diag(edges) >= 4 * (2 - 1e-5)).all() and (np.diag(edges) <= 8).all()
     assert cd().activeContacts == 3 * 64
     # Products of 150 matrices, each with an error of a rounding or two.
     assert matrix(O.cell.trsf) @ start == pytest.approx(edges, abs=1e-12)
+    assert vec(O.cell.size) == pytest.approx(np.diag(edges), abs=1e-14)
     # Of second order in the strain of a step, at most 1e-4.
     assert O.energy["contactRepair"] == pytest.approx(-PRESSURE * (O.cell.volume - volume), rel=1e-4)
     assert O.energy["velGradWork"] == pytest.approx(-c.work, rel=1e-12)
 
 
+def test_repair_rests_where_the_cell_gives_way_in_part() -> None:
+    """Two edges under stress, the third given: the lattice has nowhere to go along it and stays as it is."""
+    lattice(1e-3).stressMask = 3
+    start = matrix(O.cell.hSize)
+    steps(20)
+    assert cd().repairDisplacement == 0
+    # What the solve leaves, see above, over 20 steps of 1e-3 s.
+    assert matrix(O.cell.hSize) == pytest.approx(start, abs=1e-9)
+
+
 @pytest.mark.parametrize("homo_deform", [1, 2, 3])
-def test_bodies_that_repair_moves_with_the_cell_take_its_velocity(homo_deform: int) -> None:
-    """In a cell that shears: what the strain E carries from x to (1 + E) x has the mean field's velocity there, L (1 + E) x, and no other."""
-    found = []
-    for rate in (0, 0.1):
-        O.reset()
-        lattice(1e-3, velGrad=SHEARED)
-        O.cell.homoDeform = homo_deform
-        steps(3)
-        places = {b.id: Vector3(b.state.pos) for b in O.bodies}
-        before = matrix(O.cell.hSize)
-        cd().repairRate = rate
+@pytest.mark.parametrize("mask", [7, 63])
+def test_bodies_that_repair_moves_with_the_cell_take_its_velocity(mask: int, homo_deform: int) -> None:
+    """What the strain E carries from x to (1 + E) x has the velocity of the mean field there: that of the solution and L E x, clumps and all."""
+    dense(stressMask=mask)
+    O.bodies[0].dynamic = False
+    O.bodies[1].state.blockedDOFs = "xZ"
+    O.cell.homoDeform = homo_deform
+    strained = 0.0
+    for _ in range(60):
+        places = {b.id: vec(b.state.pos) for b in O.bodies}
+        before = matrix(O.cell.hSize) + O.dt * matrix(O.cell.velGrad) @ matrix(O.cell.hSize)
         O.step()
-        # The step begins by straining the cell with the gradient of the step before.
-        found.append((places, matrix(O.cell.hSize), matrix(O.cell.velGrad), {b.id: vec(b.state.vel) for b in O.bodies}, before))
-        cd().repairRate = 0
-    (places, still, gradient, without, _), (_, strained, same, with_repair, _) = found
-    assert (gradient == same).all()
-    strain = strained @ np.linalg.inv(still) - np.eye(3)
-    assert strain.trace() > 1e-5
-    size = np.abs(gradient).max() * 8
-    for number, place in places.items():
-        assert with_repair[number] - without[number] == pytest.approx(gradient @ strain @ vec(place), abs=1e-13 * size)
+        strain = matrix(O.cell.hSize) @ np.linalg.inv(before) - np.eye(3)
+        gradient = matrix(O.cell.velGrad)
+        for number, predicted in enumerate(cd().predictedVelocities()):
+            if predicted is None:
+                continue
+            expected = vec(predicted[0]) + gradient @ strain @ places[number]
+            # Some twenty operations on velocities of this size, in the integrator and here.
+            size = np.abs(expected).max() + 8 * np.abs(gradient).max()
+            assert vec(state(number).vel) == pytest.approx(expected, abs=20 * np.finfo(float).eps * size), number
+        # The body that does not move on its own has gone with the cell.
+        moved = strain @ places[0] + O.dt * vec(state(0).vel)
+        assert vec(state(0).pos) - places[0] == pytest.approx(moved, abs=1e-14)
+        strained = max(strained, np.abs(strain).max())
+    assert strained > 1e-6  # L E x is then 1e-6 of the velocities, far above the round-off allowed
+    for clump in (b for b in O.bodies if b.isClump):
+        for member in clump.shape.members:
+            assert (state(member).pos - clump.state.pos).norm() == pytest.approx(math.sqrt(0.05), rel=1e-12)
 
 
 def test_cell_without_contact_falls_freely() -> None:

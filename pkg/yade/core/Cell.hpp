@@ -39,6 +39,9 @@ public:
 
 	Cell();
 
+	/// Moves the cell by h times its velocity gradient and derives size, shear and the like from `hSize` and `trsf`.
+	void integrateAndUpdate(Real h);
+
 	const Vector3r& getSize() const { return _size; }
 	/// Cosines of the skew angles in the yz, xz and xy planes.
 	const Vector3r& getCos() const { return _cos; }
