@@ -9,7 +9,7 @@
 quite rest, and saves it as CONFINED: `cd CONFINED` then starts from the same packing. Both load a packing, bring it to the confinement, and compress along z at the rate
 `rate` / t_i, t_i = d sqrt(density / pressure), with constant lateral stress and steps of `h` t_i. The soft contacts have k = `stiffness` x pressure x diameter (so the
 overlap under the confinement is about 1 / `stiffness` of a diameter), the law of Cundall and Strack and YADE's TriaxialStressController.
-Without damping: as a force against the motion it adds to the friction that is to be measured (0.2 makes 22.3 degrees of 18 in a packing of 5000). Compression goes
+Without damping: as a force against the motion it adds to the friction that is to be measured (0.2 makes 22.3 degrees, 0.02 19.1, at strains of 0.04 to 0.12 in a packing of 5000). Compression goes
 on until the packing, loose at first, flows at constant volume: what it was confined by is forgotten then.
 Printed: axial and volumetric strain, lateral stress against its goal, mobilised friction angle; last the means from a third of the strain on, and the
 peak of the angle averaged over 1 % of strain.
