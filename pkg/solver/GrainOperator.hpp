@@ -28,6 +28,7 @@ public:
 	static constexpr std::size_t blockwiseFrom = 40000; ///< contacts from which on a sweep goes block by block: it no longer fits the caches
 	static constexpr int firstCheck = 0;				///< a certificate costs a sweep: wait until the increments promise convergence
 	static constexpr bool startsPlainly = true;
+	static constexpr int plainEnd = 32;
 	bool anyAwake() const { return awake > 0; }
 	std::size_t awakeContacts() const { return awake; } ///< those that a sweep visits
 

@@ -13,6 +13,7 @@ namespace contactdynamics {
 ///
 ///     int firstCheck                          sweep after which the certificate is evaluated to gauge the increments; 0: not before they promise
 ///     bool startsPlainly                      plain sweeps before momentum, while they promise to be done soon
+///     int plainEnd                            plain sweeps before maxIterations ends it all
 ///     bool anyAwake()                         false when no contact needs a visit
 ///     SweepNorms sweep(Extrapolation)         moves to the extrapolated point, then visits every awake contact once
 ///     bool mend()                             looks after sleeping contacts; true when one of them was woken
@@ -28,7 +29,8 @@ public:
 	}
 
 	/// One sweep. True when it is the last one: the certificate is met, or the iterate is not finite (then residual() is not, either).
-	bool advance()
+	/// @param mayExtrapolate  whether the next one may start elsewhere than where this one ends
+	bool advance(bool mayExtrapolate)
 	{
 		const SweepNorms norms = op.sweep(extrapolation);
 		++count;
@@ -37,6 +39,7 @@ public:
 			last = increment + impulse;
 			return true;
 		}
+		if (count == 1) warm = increment < 0.5 * impulse;
 		if (count == op.firstCheck || increment <= promise * impulse) {
 			if (!op.mend()) {
 				last = op.certificate();
@@ -47,6 +50,7 @@ public:
 		} else if (count % mendEvery == 0)
 			op.mend();
 		if (accelerated) extrapolation = accelerator.next(norms.increment2, promise * promise * norms.impulse2);
+		if (!mayExtrapolate) extrapolation = {};
 		return false;
 	}
 
@@ -60,6 +64,7 @@ public:
 	double residual() const { return last; } ///< of the last certify()
 	int sweeps() const { return count; }
 	bool hasStalled() const { return accelerator.hasStalled(); }
+	bool startedWarm() const { return warm; } ///< the first sweep changed the impulses handed over by less than half
 
 private:
 	static constexpr int mendEvery = 8; // sweeps; a look at a sleeper costs about a quarter of a visit
@@ -68,6 +73,7 @@ private:
 	const bool accelerated;
 	double promise; // of the increments, relative
 	int count = 0;
+	bool warm = false;
 	double last = 0;
 	Accelerator accelerator;
 	Extrapolation extrapolation;
