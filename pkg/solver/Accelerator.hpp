@@ -81,8 +81,7 @@ private:
 	void settleDown()
 	{
 		stalled = true;
-		settling = settle;
-		settle *= 2;
+		settling = window / 6 * 5;
 		window *= 2;
 		best = smallest = -1;
 		sinceBest = 0;
@@ -97,7 +96,7 @@ private:
 	double smallest = -1; // increment since the restart
 	double best = -1;
 	int sinceBest = 0, window = 120; // sweeps without progress, now and at most
-	int settle = 100, settling = 0;	 // sweeps with a light momentum, of the next time and left of this one
+	int settling = 0;				 // sweeps with a light momentum that are left
 	bool stalled = false;
 };
 
