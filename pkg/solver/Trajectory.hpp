@@ -34,7 +34,8 @@ public:
 	{
 		const SweepNorms norms = op.sweep(extrapolation);
 		++count;
-		const double increment = std::sqrt(std::max(0.0, norms.increment2)), impulse = std::sqrt(std::max(0.0, norms.impulse2));
+		// A NaN stays one in this order of the arguments.
+		const double increment = std::sqrt(std::max(norms.increment2, 0.0)), impulse = std::sqrt(std::max(norms.impulse2, 0.0));
 		if (!std::isfinite(increment) || !std::isfinite(impulse)) {
 			last = increment + impulse;
 			return true;
