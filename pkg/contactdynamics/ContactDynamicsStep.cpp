@@ -9,11 +9,11 @@
 #include <core/Interaction.hpp>
 #include <core/InteractionContainer.hpp>
 #include <core/Scene.hpp>
-#include <omp.h>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <typeinfo>
@@ -43,11 +43,10 @@ ContactDynamicsPhys* contactDynamicsPhys(const Interaction& interaction)
 	return dynamic_cast<ContactDynamicsPhys*>(phys);
 }
 
-/// The parts of an interaction with several points; null in any other.
-ContactDynamicsManifoldPhys* manifoldPhys(const Interaction& interaction, const ContactDynamicsPhys& phys)
+bool hasSeveralPoints(const Interaction& interaction, const ContactDynamicsPhys& phys)
 {
-	if (typeid(phys) == typeid(ContactDynamicsPhys)) return nullptr; // the common case
-	return dynamic_cast<ManifoldGeom*>(interaction.geom.get()) ? dynamic_cast<ContactDynamicsManifoldPhys*>(interaction.phys.get()) : nullptr;
+	if (typeid(phys) == typeid(ContactDynamicsPhys)) return false; // the common case
+	return dynamic_cast<const ManifoldGeom*>(interaction.geom.get()) && dynamic_cast<const ContactDynamicsManifoldPhys*>(&phys);
 }
 
 /// The objects of the contacts lie anywhere in memory, and only we know where: each is fetched some contacts before its turn, an interaction, which
@@ -132,61 +131,74 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 	});
 }
 
+/// The order of YADE's list depends on the history of the run, and O.load makes another one. Sorted by the smaller id, then by the other, the
+/// interactions are in an order that depends on nothing but ids. A walk through the trees of interactions that the bodies keep gives this order as
+/// well, but nothing in it can be fetched ahead: it took 60 ms of 150 for 200,000 interactions.
+void ContactDynamicsStep::orderById()
+{
+	const auto smaller = [](const Gathered& one) { return std::min(one.id1, one.id2); };
+	const auto larger = [](const Gathered& one) { return std::max(one.id1, one.id2); };
+	endOfId.assign(views.size() + 1, 0);
+	for (const Gathered& one : met)
+		if (one.phys) endOfId[smaller(one) + 1]++;
+	std::partial_sum(endOfId.begin(), endOfId.end(), endOfId.begin()); // the first place of each id, until they are filled
+	gathered.resize(endOfId.back());
+	for (const Gathered& one : met)
+		if (one.phys) gathered[endOfId[smaller(one)]++] = one;
+	parallelLoop(static_cast<long>(views.size()), [&](long id) {
+		std::sort(gathered.begin() + (id == 0 ? 0 : endOfId[id - 1]), gathered.begin() + endOfId[id],
+				  [&](const Gathered& a, const Gathered& b) { return larger(a) < larger(b); });
+	});
+}
+
 void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 {
-	// Each body keeps its interactions sorted by the other id, under the smaller of the two ids: walking the bodies gives an order
-	// that depends on nothing but ids, without a sort. Threads take consecutive ranges of bodies.
-	met.resize(omp_get_max_threads());
-	for (auto& ofThread : met) ofThread.clear();
-	parallelLoop(static_cast<long>(views.size()), [&](long id) {
-		const auto& body = (*scene.bodies)[id];
-		if (!body) return;
-		for (const auto& other : body->intrs) {
-			if (other.first <= id || other.first >= static_cast<int>(views.size()) || !views[other.first].state) continue;
-			__builtin_prefetch(other.second.get()); // met again below
-			met[omp_get_thread_num()].push_back(other.second.get());
+	const InteractionContainer& all = *scene.interactions;
+	const long inList = all.end() - all.begin();
+	met.resize(inList);
+	parallelLoop(inList, [&](long i) {
+		if (i + farAhead < inList) prefetchObject(all[i + farAhead].get());
+		if (i + ahead < inList) {
+			__builtin_prefetch(all[i + ahead]->phys.get());
+			__builtin_prefetch(all[i + ahead]->geom.get());
 		}
+		Interaction& interaction = *all[i];
+		const int id1 = interaction.getId1(), id2 = interaction.getId2();
+		const auto exists = [&](int id) { return id >= 0 && id < static_cast<int>(views.size()) && views[id].state; };
+		ContactDynamicsPhys* phys = contactDynamicsPhys(interaction);
+		if (!exists(id1) || !exists(id2)) phys = nullptr;
+		met[i] = {&interaction, phys, id1, id2, 0, phys && hasSeveralPoints(interaction, *phys)};
 	});
-	gathered.clear();
-	for (const auto& ofThread : met)
-		for (Interaction* interaction : ofThread) gathered.push_back({interaction});
-	const long count = static_cast<long>(gathered.size());
-	parallelLoop(count, [&](long i) {
-		if (i + farAhead < count) prefetchObject(gathered[i + farAhead].interaction);
-		if (i + ahead < count) {
-			__builtin_prefetch(gathered[i + ahead].interaction->phys.get());
-			__builtin_prefetch(gathered[i + ahead].interaction->geom.get());
-		}
-		Gathered& one = gathered[i];
-		one.phys = contactDynamicsPhys(*one.interaction);
-		if (one.phys) one.manifold = manifoldPhys(*one.interaction, *one.phys);
-		one.id1 = one.interaction->getId1();
-		one.id2 = one.interaction->getId2();
-	});
+	orderById();
 	settleBlockSeamsOf(scene);
 	manifolds.clear();
 	for (const Gathered& one : gathered)
-		if (one.manifold) manifolds.push_back({static_cast<ManifoldGeom*>(one.interaction->geom.get()), one.manifold, one.interaction});
+		if (one.severalPoints)
+			manifolds.push_back(
+					{static_cast<ManifoldGeom*>(one.interaction->geom.get()), static_cast<ContactDynamicsManifoldPhys*>(one.phys), one.interaction});
 	parallelLoop(static_cast<long>(manifolds.size()), [&](long i) {
 		const Interaction& interaction = *manifolds[i].interaction;
 		const int smaller = std::min(interaction.getId1(), interaction.getId2());
 		manifolds[i].phys->followPoints(*manifolds[i].geom, views[smaller].state->pos);
 	});
-	std::size_t points = 0;
+	const auto pointsOf = [](const Gathered& one) -> std::vector<shared_ptr<ContactDynamicsPhys>>& {
+		return static_cast<ContactDynamicsManifoldPhys*>(one.phys)->ofPoint;
+	};
+	int points = 0;
 	for (Gathered& one : gathered) {
 		one.firstLink = points;
-		if (one.phys) points += one.manifold ? one.manifold->ofPoint.size() : 1;
+		points += one.severalPoints ? static_cast<int>(pointsOf(one).size()) : 1;
 	}
-	if (links.capacity() < points) links.reserve(points); // growth by doubling would keep twice the memory
-	links.resize(points);
-	parallelLoop(count, [&](long i) {
+	const std::size_t count = points;
+	if (links.capacity() < count) links.reserve(count); // growth by doubling would keep twice the memory
+	links.resize(count);
+	parallelLoop(static_cast<long>(gathered.size()), [&](long i) {
 		const Gathered& one = gathered[i];
-		if (!one.phys) return;
-		const auto link = [&](std::size_t place, ContactDynamicsPhys* phys, int point) {
+		const auto link = [&](int place, ContactDynamicsPhys* phys, int point) {
 			links[place] = {one.interaction, phys, false, true, Vector3r::Zero(), Vector3r::Zero(), 0, point, one.id1, one.id2};
 		};
-		if (!one.manifold) return link(one.firstLink, one.phys, -1);
-		for (std::size_t k = 0; k < one.manifold->ofPoint.size(); k++) link(one.firstLink + k, one.manifold->ofPoint[k].get(), static_cast<int>(k));
+		if (!one.severalPoints) return link(one.firstLink, one.phys, -1);
+		for (std::size_t k = 0; k < pointsOf(one).size(); k++) link(one.firstLink + int(k), pointsOf(one)[k].get(), static_cast<int>(k));
 	});
 }
 

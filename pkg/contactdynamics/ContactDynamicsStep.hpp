@@ -90,12 +90,12 @@ private:
 		ContactDynamicsManifoldPhys* phys;
 		Interaction* interaction;
 	};
-	struct Gathered { // interaction of this law
+	struct Gathered { // interaction
 		Interaction* interaction;
-		ContactDynamicsPhys* phys = nullptr;			 // null: of another law
-		ContactDynamicsManifoldPhys* manifold = nullptr; // null unless it has several points
-		int id1 = -1, id2 = -1;
-		std::size_t firstLink = 0;
+		ContactDynamicsPhys* phys; // null: of another law
+		int id1, id2;
+		int firstLink;
+		bool severalPoints;
 	};
 	struct Load {
 		Vector3r force, torque;
@@ -107,6 +107,7 @@ private:
 	Real roundOffAtRest() const;
 	contactdynamics::BlockProblem assembledProblem(const char* caller) const;
 	void gatherInteractions(const Scene& scene);
+	void orderById();
 	void settleSurfaceSeams(const Scene& scene);
 	void settleBlockSeamsOf(const Scene& scene);
 	void passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts) const;
@@ -150,12 +151,13 @@ private:
 	std::vector<std::size_t> pairOf;
 	std::vector<BodyView> views; // by body id
 	std::vector<int> idOfIndex;
-	std::vector<FreeMotion> motions;			// by solver index
-	std::vector<Vector3r> places;				// likewise, where there is a mean field: positions [m]
-	std::optional<IntegratorPlan> planOfField;	// where there is a mean field
-	std::vector<std::vector<Interaction*>> met; // by thread
-	std::vector<Gathered> gathered;
-	std::vector<Link> links; // parallel to problem.contacts once collected
+	std::vector<FreeMotion> motions;		   // by solver index
+	std::vector<Vector3r> places;			   // likewise, where there is a mean field: positions [m]
+	std::optional<IntegratorPlan> planOfField; // where there is a mean field
+	std::vector<Gathered> met;				   // in the order of YADE's list
+	std::vector<Gathered> gathered;			   // those of this law by ids, see orderById()
+	std::vector<int> endOfId;				   // place in gathered after the last one under this smaller id
+	std::vector<Link> links;				   // parallel to problem.contacts once collected
 	std::vector<Manifold> manifolds;
 	std::vector<Load> loads; // contact force and torque by body id
 	ShiftedContacts shifted;

@@ -53,7 +53,7 @@ void ContactDynamicsStep::settleBlockSeamsOf(const Scene& scene)
 {
 	std::vector<Side> sides;
 	for (const Gathered& one : gathered) {
-		if (!one.manifold) continue;
+		if (!one.severalPoints) continue;
 		sides.push_back({one.id1, one.id2, one.interaction});
 		sides.push_back({one.id2, one.id1, one.interaction});
 	}
