@@ -153,7 +153,7 @@ void ContactDynamicsEngine::repair()
 	repairDisplacement = step->repairDisplacement;
 }
 
-boost::python::list ContactDynamicsEngine::freeVelocities() const { return step->velocitiesById(step->free); }
+boost::python::list ContactDynamicsEngine::freeVelocities() const { return step->velocitiesById(step->free()); }
 boost::python::list ContactDynamicsEngine::predictedVelocities() const { return step->velocitiesById(step->end()); }
 boost::python::list ContactDynamicsEngine::predictedAngularMomenta() const { return step->angularMomentaById(); }
 boost::python::dict ContactDynamicsEngine::lastProblem() const { return step->asDictionary(); }

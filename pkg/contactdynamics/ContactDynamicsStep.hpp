@@ -30,7 +30,6 @@ struct ContactDynamicsStep {
 	};
 
 	contactdynamics::GrainProblem problem;
-	std::vector<Twist> free;				  // free velocities by solver index
 	int planeAxis = -1;						  // normal to the plane of a two-dimensional scene, see PlaneOfMotion
 	int activeContacts = 0;					  // of the last apply()
 	Real maxPenetration = 0;				  // [m]
@@ -57,7 +56,8 @@ struct ContactDynamicsStep {
 	/// @param cellMobility  see PenetrationRepair::solve()
 	void repairPenetration(Scene& scene, Real rate, Real allowed, const Matrix3r& cellMobility);
 
-	std::vector<Twist> end() const; // velocities at the end of the step by solver index
+	std::vector<Twist> free() const; // velocities without contact by solver index
+	std::vector<Twist> end() const;	 // likewise at the end of the step
 	boost::python::list velocitiesById(const std::vector<Twist>& twists) const;
 	boost::python::list angularMomentaById() const;
 	boost::python::dict asDictionary() const;	   // see ContactDynamicsEngine.lastProblem
@@ -78,19 +78,21 @@ private:
 	struct Link {
 		Interaction* interaction;
 		ContactDynamicsPhys* phys; // that of the point
-		bool swapped, solved;
-		Vector3r arm1, arm2; // from the positions of the two bodies (not of their clumps) to the contact point [m]
-		Real gap;			 // [m]
-		int point = -1;		 // of a ManifoldGeom; -1 for a contact with one point
-		int id1, id2;		 // of the bodies, as the interaction has them
+		int point;				   // of a ManifoldGeom; -1 for a contact with one point
+		int id1, id2;			   // of the bodies, as the interaction has them
+		bool swapped = false, solved = true;
 		bool plain = true;	 // see ContactDynamicsPhys::isPlain
+		bool pushed = false; // by the repair of an earlier step: phys->pseudoImpulse is not 0
+		// From the positions of the two bodies (not of their clumps) to the contact point [m].
+		Vector3r arm1 = Vector3r::Zero(), arm2 = Vector3r::Zero();
+		Real gap = 0; // [m]
 	};
 	struct Manifold { // contact with several points, each of which is a link
 		ManifoldGeom* geom;
 		ContactDynamicsManifoldPhys* phys;
 		Interaction* interaction;
 	};
-	struct Gathered { // interaction
+	struct Gathered { // interaction, one of this law once they are in order
 		Interaction* interaction;
 		ContactDynamicsPhys* phys; // null: of another law
 		int id1, id2;
@@ -115,6 +117,7 @@ private:
 	void requireUsable(const Link& link, const contactdynamics::Contact& contact) const;
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;
 	Twist atStart(int index) const;
+	Twist freeOf(int index) const { return {motions[index].velocity, motions[index].angularVelocity}; }
 	Vector3r relativeVelocity(const contactdynamics::Contact& contact, const Twist& of1, const Twist& of2) const;
 	Vector3r velocityAtStart(const contactdynamics::Contact& contact) const;
 	Vector3r shiftOf(const contactdynamics::Contact& contact) const;
@@ -136,7 +139,9 @@ private:
 	Real sizeOf(std::size_t contact) const;
 	Real gapAfterMotion(std::size_t contact) const;
 	Real gapToRepair(const TouchingPair& pair) const;
+	TouchingPair pairFrom(std::size_t first) const;
 	void findPairs();
+	void setPseudoImpulse(const TouchingPair& pair, Real pseudoImpulse);
 	void displace(Scene& scene, Real share, Real allowed, const Matrix3r& cellMobility);
 
 	bool solved = false; // problem holds a solution
@@ -146,18 +151,16 @@ private:
 	Matrix3r velGrad;				 // that the integrator will apply, for the velocity of periodic images
 	Matrix3r displacementAsVelocity; // see IntegratorPlan::velocityOfDisplacement [1/s]
 	PenetrationRepair repair;
-	std::vector<PenetrationRepair::Candidate> candidates; // of the repair
-	std::vector<TouchingPair> pairs;					  // likewise, and that of each candidate
-	std::vector<std::size_t> pairOf;
-	std::vector<BodyView> views; // by body id
+	std::vector<TouchingPair> pairs;					  // that the repair looks after
+	std::vector<PenetrationRepair::Candidate> candidates; // parallel to them
+	std::vector<BodyView> views;						  // by body id
 	std::vector<int> idOfIndex;
 	std::vector<FreeMotion> motions;		   // by solver index
 	std::vector<Vector3r> places;			   // likewise, where there is a mean field: positions [m]
 	std::optional<IntegratorPlan> planOfField; // where there is a mean field
-	std::vector<Gathered> met;				   // in the order of YADE's list
-	std::vector<Gathered> gathered;			   // those of this law by ids, see orderById()
-	std::vector<int> endOfId;				   // place in gathered after the last one under this smaller id
-	std::vector<Link> links;				   // parallel to problem.contacts once collected
+	std::vector<Gathered> gathered;
+	std::vector<int> firstOfId, freePlace; // in gathered, by smaller id, see orderById()
+	std::vector<Link> links;			   // parallel to problem.contacts once collected
 	std::vector<Manifold> manifolds;
 	std::vector<Load> loads; // contact force and torque by body id
 	ShiftedContacts shifted;

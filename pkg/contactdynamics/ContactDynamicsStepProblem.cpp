@@ -42,7 +42,7 @@ contactdynamics::BlockProblem ContactDynamicsStep::assembledProblem(const char* 
 		for (std::size_t i = 0; i < frames.size(); i++) {
 			const contactdynamics::Contact& contact = grains.contacts[i];
 			Eigen::Map<Vector3r>(&blocks.q[3 * i]) =
-					frames[i] * relativeVelocity(contact, free[contact.body1], free[contact.body2]) + Vector3r(contact.gapVelocity, 0, 0);
+					frames[i] * relativeVelocity(contact, freeOf(contact.body1), freeOf(contact.body2)) + Vector3r(contact.gapVelocity, 0, 0);
 		}
 	return blocks;
 }

@@ -6,6 +6,7 @@
 #include <core/Clump.hpp>
 #include <core/Scene.hpp>
 #include <algorithm>
+#include <limits>
 
 namespace yade {
 namespace {
@@ -45,22 +46,36 @@ Real ContactDynamicsStep::gapToRepair(const TouchingPair& pair) const
 	return shallowest;
 }
 
+ContactDynamicsStep::TouchingPair ContactDynamicsStep::pairFrom(std::size_t first) const
+{
+	TouchingPair pair{first, first, false, 0, std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity()};
+	for (; pair.last < links.size() && links[pair.last].interaction == links[first].interaction; pair.last++) {
+		pair.loaded = pair.loaded || problem.contacts[pair.last].impulse != Vector3r::Zero();
+		pair.deepest = std::min(pair.deepest, gapAfterMotion(pair.last));
+		pair.size = std::min(pair.size, sizeOf(pair.last));
+	}
+	pair.gap = gapToRepair(pair);
+	return pair;
+}
+
+void ContactDynamicsStep::setPseudoImpulse(const TouchingPair& pair, Real pseudoImpulse)
+{
+	for (std::size_t i = pair.first; i < pair.last; i++)
+		if (links[i].pushed || pseudoImpulse != 0) links[i].phys->pseudoImpulse = pseudoImpulse;
+}
+
+/// Those that the displacements of this step might close.
 void ContactDynamicsStep::findPairs()
 {
 	pairs.clear();
-	for (std::size_t i = 0; i < links.size(); i++) {
-		const bool loaded = problem.contacts[i].impulse != Vector3r::Zero();
-		const Real gap = gapAfterMotion(i);
-		if (i > 0 && links[i].interaction == links[i - 1].interaction) {
-			TouchingPair& pair = pairs.back();
-			pair.last = i + 1;
-			pair.loaded = pair.loaded || loaded;
-			pair.deepest = std::min(pair.deepest, gap);
-			pair.size = std::min(pair.size, sizeOf(i));
-		} else
-			pairs.push_back({i, i + 1, loaded, gap, gap, sizeOf(i)});
+	for (std::size_t i = 0; i < links.size();) {
+		const TouchingPair pair = pairFrom(i);
+		i = pair.last;
+		if (pair.gap > 2 * PenetrationRepair::largestWay * pair.size || problem.contacts[pair.first].normalCompliance > 0)
+			setPseudoImpulse(pair, 0);
+		else
+			pairs.push_back(pair);
 	}
-	for (TouchingPair& pair : pairs) pair.gap = gapToRepair(pair);
 }
 
 void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowed, const Matrix3r& cellMobility)
@@ -77,29 +92,20 @@ void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowe
 		displace(scene, std::min(rate, std::max(leastShare, gentleStep / deepest)), allowed, cellMobility);
 		return;
 	}
-	for (const Link& link : links) link.phys->pseudoImpulse = 0;
+	for (const TouchingPair& pair : pairs) setPseudoImpulse(pair, 0);
 }
 
 void ContactDynamicsStep::displace(Scene& scene, Real share, Real allowed, const Matrix3r& cellMobility)
 {
 	candidates.clear();
-	pairOf.clear();
-	for (std::size_t k = 0; k < pairs.size(); k++) {
-		const TouchingPair& pair = pairs[k];
-		if (pair.gap > 2 * PenetrationRepair::largestWay * pair.size || problem.contacts[pair.first].normalCompliance > 0) {
-			for (std::size_t i = pair.first; i < pair.last; i++) links[i].phys->pseudoImpulse = 0;
-			continue;
-		}
+	for (const TouchingPair& pair : pairs) {
 		std::size_t its = pair.first;
 		while (pair.loaded && problem.contacts[its].impulse == Vector3r::Zero()) its++;
-		candidates.push_back({static_cast<int>(its), pair.gap, pair.deepest, pair.size, links[pair.first].phys->pseudoImpulse});
-		pairOf.push_back(k);
+		candidates.push_back(
+				{static_cast<int>(its), pair.gap, pair.deepest, pair.size, links[pair.first].pushed ? links[pair.first].phys->pseudoImpulse : 0});
 	}
 	repair.solve(problem, candidates, share, allowed, cellMobility);
-	for (std::size_t k = 0; k < candidates.size(); k++) {
-		const TouchingPair& pair = pairs[pairOf[k]];
-		for (std::size_t i = pair.first; i < pair.last; i++) links[i].phys->pseudoImpulse = candidates[k].pseudoImpulse;
-	}
+	for (std::size_t k = 0; k < pairs.size(); k++) setPseudoImpulse(pairs[k], candidates[k].pseudoImpulse);
 	remainingOverlap = repair.remainingOverlap(candidates);
 	repairDisplacement = repair.largestDisplacement();
 	repairStrain = repair.strain();

@@ -8,6 +8,14 @@
 
 namespace yade {
 
+std::vector<ContactDynamicsStep::Twist> ContactDynamicsStep::free() const
+{
+	std::vector<Twist> twists;
+	twists.reserve(motions.size());
+	for (const FreeMotion& motion : motions) twists.push_back({motion.velocity, motion.angularVelocity});
+	return twists;
+}
+
 std::vector<ContactDynamicsStep::Twist> ContactDynamicsStep::end() const
 {
 	std::vector<Twist> twists;
@@ -50,13 +58,13 @@ boost::python::list ContactDynamicsStep::angularMomentaById() const
 /// What a force on the body (and a torque about its mass centre) gives to the degrees of freedom that are blocked, whose velocity is prescribed [W].
 Real ContactDynamicsStep::powerOnPrescribed(int index, const Vector3r& force, const Vector3r& torque) const
 {
-	const FreeMotion& motion = motions[index];
+	const int held = motions[index].heldDOFs;
 	const Twist start = atStart(index);
 	const auto& end = problem.bodies[index];
 	Real power = 0;
 	for (int axis = 0; axis < 3; axis++) {
-		if (motion.inverseMass[axis] == 0) power += 0.5 * force[axis] * (start.velocity[axis] + end.velocity[axis]);
-		if (motion.inverseInertia(axis, axis) == 0) power += 0.5 * torque[axis] * (start.angularVelocity[axis] + end.angularVelocity[axis]);
+		if (held & State::axisDOF(axis, false)) power += 0.5 * force[axis] * (start.velocity[axis] + end.velocity[axis]);
+		if (held & State::axisDOF(axis, true)) power += 0.5 * torque[axis] * (start.angularVelocity[axis] + end.angularVelocity[axis]);
 	}
 	return power;
 }

@@ -58,7 +58,7 @@ void ContactDynamicsStep::settleSurfaceSeams(const Scene& scene)
 	parallelLoop(static_cast<long>(starts.size()) - 1, [&](long group) {
 		const BodyView& sphere = views[sphereOf(*shared[starts[group]])];
 		const auto advanceAt = [&](const BodyView& view, const Vector3r& arm) { // of a point of the body, from the body's own position
-			const Twist& twist = free[view.index];
+			const Twist twist = freeOf(view.index);
 			const Vector3r fromCentre = view.state->pos - views[idOfIndex[view.index]].state->pos + arm;
 			return Vector3r(h * (twist.velocity + twist.angularVelocity.cross(fromCentre)));
 		};

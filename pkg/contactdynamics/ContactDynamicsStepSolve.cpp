@@ -23,10 +23,10 @@ bool ContactDynamicsStep::standsStill() const
 		return turning > 0 ? sum + angularVelocity.squaredNorm() / turning : sum;
 	};
 	Real now = 0, pushed = 0;
-	for (std::size_t i = 0; i < free.size(); i++) {
+	for (std::size_t i = 0; i < motions.size(); i++) {
 		const Twist start = atStart(static_cast<int>(i));
 		now += energy(problem.bodies[i], start.velocity, start.angularVelocity);
-		pushed += energy(problem.bodies[i], free[i].velocity - start.velocity, free[i].angularVelocity - start.angularVelocity);
+		pushed += energy(problem.bodies[i], motions[i].velocity - start.velocity, motions[i].angularVelocity - start.angularVelocity);
 	}
 	return now <= pushed;
 }
@@ -37,9 +37,9 @@ bool ContactDynamicsStep::standsStill() const
 Real ContactDynamicsStep::roundOffAtRest() const
 {
 	Real farthest = 0, pushed = 0;
-	for (std::size_t i = 0; i < free.size(); i++) {
+	for (std::size_t i = 0; i < motions.size(); i++) {
 		farthest = std::max(farthest, views[idOfIndex[i]].state->pos.cwiseAbs().maxCoeff());
-		pushed = std::max(pushed, (free[i].velocity - atStart(static_cast<int>(i)).velocity).norm());
+		pushed = std::max(pushed, (motions[i].velocity - atStart(static_cast<int>(i)).velocity).norm());
 	}
 	return pushed > 0 ? 0.1 * std::numeric_limits<Real>::epsilon() * farthest / (h * pushed) : 0;
 }

@@ -32,8 +32,10 @@ Matrix3r IntegratorPlan::beforeStep(const Matrix3r& gradient) const
 
 Matrix3r IntegratorPlan::velocityOfDisplacement() const { return periodic && homoDeform ? beforeStep(velGradChange) : Matrix3r(Matrix3r::Zero()); }
 
-FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, const Body& body, const Vector3r& force, const Vector3r& torque)
+FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, const Body& body, const Vector3r& force, const Vector3r& torque,
+							 Mobility& mobility)
 {
+	mobility = Mobility();
 	requireUsableState(body, force, torque);
 	const State& state = *body.state;
 	FreeMotion free;
@@ -57,7 +59,7 @@ FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, con
 		for (int axis = 0; axis < 3; axis++) {
 			if (state.blockedDOFs & State::axisDOF(axis, false)) continue;
 			acceleration[axis] = (force[axis] / state.mass + plan.gravity[axis]) * scaling;
-			free.inverseMass[axis] = scaling / state.mass;
+			mobility.inverseMass[axis] = scaling / state.mass;
 		}
 		if (plan.periodic && plan.homoDeform > 1) acceleration += plan.prevVelGrad * state.vel;
 		free.velocity += h * acceleration;
@@ -65,15 +67,19 @@ FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, con
 		free.aspherical = plan.exactAsphericalRot && body.isAspherical() && (state.blockedDOFs & State::DOF_RXRYRZ) == State::DOF_NONE;
 		if (free.aspherical) {
 			const Matrix3r axes = state.ori.toRotationMatrix();
-			free.inverseInertia = axes * (scaling * state.inertia.cwiseInverse()).asDiagonal() * axes.transpose();
+			mobility.inverseInertia = axes * (scaling * state.inertia.cwiseInverse()).asDiagonal() * axes.transpose();
 			free.angularMomentum = state.angMom + h * torque;
-			free.angularVelocity = free.inverseInertia * free.angularMomentum;
+			free.angularVelocity = mobility.inverseInertia * free.angularMomentum;
 		} else {
 			Vector3r inverse = Vector3r::Zero();
 			for (int axis = 0; axis < 3; axis++)
 				if (!(state.blockedDOFs & State::axisDOF(axis, true))) inverse[axis] = scaling / state.inertia[axis];
-			free.inverseInertia = inverse.asDiagonal();
+			mobility.inverseInertia = inverse.asDiagonal();
 			free.angularVelocity += h * inverse.cwiseProduct(torque);
+		}
+		for (int axis = 0; axis < 3; axis++) {
+			if (mobility.inverseMass[axis] > 0) free.heldDOFs &= ~State::axisDOF(axis, false);
+			if (mobility.inverseInertia(axis, axis) > 0) free.heldDOFs &= ~State::axisDOF(axis, true);
 		}
 	} else if (plan.periodic && plan.homoDeform > 1) {
 		free.velocity += h * plan.prevVelGrad * state.vel;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <core/Body.hpp>
+#include <core/State.hpp>
 #include <lib/base/Math.hpp>
+#include <cstdint>
 
 namespace yade {
 
@@ -29,8 +31,14 @@ struct IntegratorPlan {
 	Matrix3r velocityOfDisplacement() const;
 };
 
+/// What an impulse changes of a body's velocity: mass and inertia inverted, 0 along blocked degrees of freedom.
+struct Mobility {
+	Vector3r inverseMass = Vector3r::Zero();	// per global axis [1/kg]
+	Matrix3r inverseInertia = Matrix3r::Zero(); // global axes [1/(kg m2)]
+};
+
 /// Free motion of one body: its velocity at the end of the step if no contact impulse acted, exactly as the integrator computes it from
-/// the forces known so far, and what an impulse changes of it (mass and inertia inverted, 0 along blocked degrees of freedom).
+/// the forces known so far.
 ///
 /// A body rotated "exactly" (Body.aspherical, no rotation blocked, NewtonIntegrator.exactAsphericalRot) is integrated in its angular
 /// momentum. The angular velocity that enters the contact condition is then R I^-1 R^T angMom with the orientation at the start of
@@ -38,16 +46,17 @@ struct IntegratorPlan {
 struct FreeMotion {
 	Vector3r velocity, angularVelocity;			 // [m/s], [rad/s], global axes
 	Vector3r angularMomentum = Vector3r::Zero(); // of aspherical bodies [kg m2/s]; zero otherwise
-	Vector3r inverseMass = Vector3r::Zero();	 // per global axis [1/kg]
-	Matrix3r inverseInertia = Matrix3r::Zero();	 // global axes [1/(kg m2)]
 	Vector3r load = Vector3r::Zero();			 // external force, gravity included [N]
+	std::uint8_t heldDOFs = State::DOF_ALL;		 // those that no impulse moves, as in State::blockedDOFs
 	bool moved = true;							 // false: the integrator leaves the body alone (mask, other subdomain)
 	bool aspherical = false;					 // integrated in angularMomentum
 };
 
 /// @param force, torque  total external force and torque on the body, those of clump members included [N], [N m]
+/// @param mobility       out
 /// @throws std::runtime_error  position, velocity, mass or inertia not finite, or mass or inertia not positive along a free degree of
 ///                             freedom; the message names body, attribute, value and what is allowed.
-FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, const Body& body, const Vector3r& force, const Vector3r& torque);
+FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, const Body& body, const Vector3r& force, const Vector3r& torque,
+							 Mobility& mobility);
 
 } // namespace yade

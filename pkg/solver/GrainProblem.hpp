@@ -28,6 +28,7 @@ enum class ContactStatus : std::int8_t { none, sticking, sliding };
 struct Contact {
 	std::int32_t body1 = 0, body2 = 0;			///< indices into GrainProblem::bodies, different from each other
 	bool ball = false;							///< arms parallel to the normal and isotropic mobilities: W = diag(Wn, Wt, Wt)
+	ContactStatus status = ContactStatus::none; ///< out
 	Vector3 normal = Vector3::UnitX();			///< unit vector from body 1 to body 2
 	Vector3 arm1 = Vector3::Zero();				///< contact point minus mass centre of body 1 [m]
 	Vector3 arm2 = Vector3::Zero();				///< contact point minus mass centre of body 2 [m]
@@ -38,7 +39,6 @@ struct Contact {
 	double tangentialCompliance = 0;			///< likewise for both tangents; a contact with either takes the general solution [1/kg]
 	Vector3 impulse = Vector3::Zero();			///< in: start of the iteration (warm start or zero); out: solution, global axes [N s]
 	Vector3 relativeVelocity = Vector3::Zero(); ///< out: U at the solution, imageVelocity included, gapVelocity and compliance not, global axes [m/s]
-	ContactStatus status = ContactStatus::none; ///< out
 };
 
 /// A velocity gradient L that all bodies share, such as that of a periodic cell with inertia of its own: one more body, which every contact sees.
