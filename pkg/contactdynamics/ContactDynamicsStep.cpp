@@ -58,6 +58,13 @@ template <class Object> void prefetchObject(const Object* object)
 	for (std::size_t at = 0; at < sizeof(Object); at += line) __builtin_prefetch(reinterpret_cast<const char*>(object) + at);
 }
 
+/// Growth by doubling would keep twice the memory, growth by what is missing would copy everything in each step of a packing that gets denser.
+template <class Element> void resizeFrugally(std::vector<Element>& vector, std::size_t count)
+{
+	if (vector.capacity() < count) vector.reserve(count + count / 8);
+	vector.resize(count);
+}
+
 const char* nameOf(contactdynamics::ContactStatus status)
 {
 	switch (status) {
@@ -192,9 +199,7 @@ void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 		one.firstLink = points;
 		points += one.severalPoints ? static_cast<int>(pointsOf(one).size()) : 1;
 	}
-	const std::size_t count = points;
-	if (links.capacity() < count) links.reserve(count); // growth by doubling would keep twice the memory
-	links.resize(count);
+	resizeFrugally(links, points);
 	parallelLoop(static_cast<long>(gathered.size()), [&](long i) {
 		const Gathered& one = gathered[i];
 		const auto link = [&](int place, ContactDynamicsPhys* phys, int point) { links[place] = {one.interaction, phys, point, one.id1, one.id2}; };
@@ -301,7 +306,7 @@ void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string&
 	const bool velocitySignorini = contactLaw == "velocitySignorini", quasiInelasticShock = contactLaw == "quasiInelasticShock";
 	gatherInteractions(scene);
 	settleSurfaceSeams(scene);
-	problem.contacts.resize(links.size());
+	resizeFrugally(problem.contacts, links.size());
 	const long count = static_cast<long>(links.size());
 	parallelLoop(count, [&](long i) {
 		if (i + farAhead < count) prefetchObject(links[i + farAhead].interaction);
