@@ -82,7 +82,7 @@ private:
 		int id1, id2;			   // of the bodies, as the interaction has them
 		bool swapped = false, solved = true;
 		bool plain = true;	 // see ContactDynamicsPhys::isPlain
-		bool pushed = false; // by the repair of an earlier step: phys->pseudoImpulse is not 0
+		bool pushed = false; // phys->pseudoImpulse was not 0 when collected: saves the repair from fetching phys to find, or leave, 0
 		// From the positions of the two bodies (not of their clumps) to the contact point [m].
 		Vector3r arm1 = Vector3r::Zero(), arm2 = Vector3r::Zero();
 		Real gap = 0; // [m]
@@ -94,7 +94,7 @@ private:
 	};
 	struct Gathered { // interaction, one of this law once they are in order
 		Interaction* interaction;
-		ContactDynamicsPhys* phys; // null: of another law
+		ContactDynamicsPhys* phys; // null: of another law, potential only, or of a body that is gone
 		int id1, id2;
 		int firstLink;
 		bool severalPoints;
@@ -140,7 +140,7 @@ private:
 	Real gapAfterMotion(std::size_t contact) const;
 	Real gapToRepair(const TouchingPair& pair) const;
 	TouchingPair pairFrom(std::size_t first) const;
-	void findPairs();
+	void choosePairs();
 	void setPseudoImpulse(const TouchingPair& pair, Real pseudoImpulse);
 	void displace(Scene& scene, Real share, Real allowed, const Matrix3r& cellMobility);
 

@@ -64,8 +64,8 @@ void ContactDynamicsStep::setPseudoImpulse(const TouchingPair& pair, Real pseudo
 		if (links[i].pushed || pseudoImpulse != 0) links[i].phys->pseudoImpulse = pseudoImpulse;
 }
 
-/// Those that the displacements of this step might close.
-void ContactDynamicsStep::findPairs()
+/// Those that the displacements of this step might close, and that are not compliant, whose overlap is meant. The others forget how they were pushed.
+void ContactDynamicsStep::choosePairs()
 {
 	pairs.clear();
 	for (std::size_t i = 0; i < links.size();) {
@@ -83,7 +83,7 @@ void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowe
 	remainingOverlap = repairDisplacement = 0;
 	repairStrain.setZero();
 	Real deepest = 0; // to be repaired, in sizes
-	findPairs();
+	choosePairs();
 	for (const TouchingPair& pair : pairs) {
 		remainingOverlap = std::max(remainingOverlap, -pair.deepest);
 		deepest = std::max(deepest, -pair.gap / pair.size);

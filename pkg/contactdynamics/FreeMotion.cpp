@@ -32,13 +32,13 @@ Matrix3r IntegratorPlan::beforeStep(const Matrix3r& gradient) const
 
 Matrix3r IntegratorPlan::velocityOfDisplacement() const { return periodic && homoDeform ? beforeStep(velGradChange) : Matrix3r(Matrix3r::Zero()); }
 
-FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, const Body& body, const Vector3r& force, const Vector3r& torque,
-							 Mobility& mobility)
+std::pair<FreeMotion, Mobility> predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, const Body& body, const Vector3r& force,
+												  const Vector3r& torque)
 {
-	mobility = Mobility();
 	requireUsableState(body, force, torque);
 	const State& state = *body.state;
 	FreeMotion free;
+	Mobility mobility;
 	free.velocity = state.vel;
 	free.angularVelocity = state.angVel;
 	if (plan.mask > 0 && !body.maskCompatible(plan.mask)) { // whatever its velocity says, it stays where it is
@@ -48,7 +48,7 @@ FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, con
 #ifdef YADE_MPI
 	free.moved = free.moved && scene.subdomain == body.subdomain && !body.getIsSubdomain() && !body.getIsFluidDomainBbox();
 #endif
-	if (!free.moved) return free;
+	if (!free.moved) return {free, mobility};
 	const Real h = plan.h;
 	// The order of operations below is the integrator's: the prediction then differs from it by round-off at most.
 	if (body.isDynamic()) {
@@ -88,7 +88,7 @@ FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, con
 		free.velocity += plan.velGradChange * state.pos;
 		if (!free.aspherical) free.angularVelocity += plan.spinChange;
 	}
-	return free;
+	return {free, mobility};
 }
 
 } // namespace yade

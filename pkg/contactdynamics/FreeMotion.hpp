@@ -4,6 +4,7 @@
 #include <core/State.hpp>
 #include <lib/base/Math.hpp>
 #include <cstdint>
+#include <utility>
 
 namespace yade {
 
@@ -53,10 +54,9 @@ struct FreeMotion {
 };
 
 /// @param force, torque  total external force and torque on the body, those of clump members included [N], [N m]
-/// @param mobility       out
 /// @throws std::runtime_error  position, velocity, mass or inertia not finite, or mass or inertia not positive along a free degree of
 ///                             freedom; the message names body, attribute, value and what is allowed.
-FreeMotion predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, const Body& body, const Vector3r& force, const Vector3r& torque,
-							 Mobility& mobility);
+std::pair<FreeMotion, Mobility> predictFreeMotion(const Scene& scene, const IntegratorPlan& plan, const Body& body, const Vector3r& force,
+												  const Vector3r& torque);
 
 } // namespace yade

@@ -9,6 +9,7 @@
 #include "NaturalMap.hpp"
 #include "SolveReport.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace contactdynamics {
@@ -31,6 +32,7 @@ public:
 	static constexpr int plainEnd = 32;
 	bool anyAwake() const { return awake > 0; }
 	std::size_t awakeContacts() const { return awake; } ///< those that a sweep visits
+	std::size_t movingBodies() const { return std::size_t(std::count(movable.begin(), movable.end(), 1)); }
 
 	SweepNorms sweep(Extrapolation by);
 	bool mend();

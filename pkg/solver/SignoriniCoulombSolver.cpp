@@ -4,6 +4,7 @@
 #include "GrainOperator.hpp"
 #include "SignoriniCoulombLoop.hpp"
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -84,6 +85,14 @@ bool isFinite(const GrainProblem& problem)
 	return poison == 0;
 }
 
+/// Plain sweeps carry a load from grain to grain: they take as many as the square of the grains in a row, N^(2/3), times something. Twelve makes a
+/// lead of 1000 for 729 grains. A lead of 1000 for any number: pours of 4096 grains with mu = 0.5 take 0.86 of the plain sweeps (0.58 where a tenth
+/// of them is heavy) instead of 0.61 (0.45). Earlier after a cold start, at the first stall: nothing gained on 166 heaps of 64 to 216.
+int leadOfMomentum(std::size_t movingBodies)
+{
+	const double inARow = std::cbrt(static_cast<double>(movingBodies));
+	return static_cast<int>(12 * inARow * inARow);
+}
 } // namespace
 
 /// Whether contacts that are crushed at a solution still are when the sweeps go on from there.
@@ -114,7 +123,7 @@ SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOpt
 	Crew& crew = workspace->crewFor(problem, options.threads);
 	const AtWork work(crew);
 	grains.start(problem, options.acceleration != Acceleration::none, crew);
-	const LoopResult result = signoriniCoulombLoop(grains, options, [&] {
+	const LoopResult result = signoriniCoulombLoop(grains, options, leadOfMomentum(grains.movingBodies()), [&] {
 		rival.start(problem, false, crew);
 		return &rival;
 	});

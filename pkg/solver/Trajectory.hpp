@@ -40,7 +40,6 @@ public:
 			last = increment + impulse;
 			return true;
 		}
-		if (count == 1) warm = increment < 0.5 * impulse;
 		if (count == op.firstCheck || increment <= promise * impulse) {
 			if (!op.mend()) {
 				last = op.certificate();
@@ -62,10 +61,9 @@ public:
 		return last = op.certificate();
 	}
 
-	double residual() const { return last; } ///< of the last certify()
+	double residual() const { return last; } ///< of the last certificate, or not finite
 	int sweeps() const { return count; }
 	bool hasStalled() const { return accelerator.hasStalled(); }
-	bool startedWarm() const { return warm; } ///< the first sweep changed the impulses handed over by less than half
 
 private:
 	static constexpr int mendEvery = 8; // sweeps; a look at a sleeper costs about a quarter of a visit
@@ -74,7 +72,6 @@ private:
 	const bool accelerated;
 	double promise; // of the increments, relative
 	int count = 0;
-	bool warm = false;
 	double last = 0;
 	Accelerator accelerator;
 	Extrapolation extrapolation;
