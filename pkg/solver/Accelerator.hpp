@@ -33,7 +33,7 @@ namespace contactdynamics {
 ///     against the smallest since the restart, by 22 %          347   552  1297   873  1210   872   297      -    953
 ///     twice as large                                           271   464   987   851   966   690   231      -    954
 ///     three times as large                                     224   389   831   694  1099   645   193      -   1107
-///     … and 100 plain sweeps and a rival where it stalls       271   464   987   851   966  1828   231   1366    954
+///     … before settling and lead were as they are             271   464   987   851   966  1828   231   1366    954
 class Accelerator {
 public:
 	/// @param startsPlainly  plain sweeps first, while they promise to be done soon
