@@ -103,9 +103,13 @@ void ContactDynamicsEngine::solve()
 	residual = report.residual;
 	maxApproachSpeed = report.maxApproachSpeed;
 	converged = report.status == contactdynamics::SolveStatus::converged;
-	if (report.status == contactdynamics::SolveStatus::notFinite)
-		throw std::runtime_error("ContactDynamicsEngine: the contact problem of step " + std::to_string(scene->iter) +
-								 " has values that are not finite (external force, inertia or contact geometry); no body was moved.");
+	if (report.status == contactdynamics::SolveStatus::notFinite) {
+		std::ostringstream message;
+		message << "ContactDynamicsEngine: the contact problem of step " << scene->iter
+				<< " has values that are not finite: velocities, external forces, inertia, contact geometry, or what O.dt = " << scene->dt
+				<< " makes of them; no body was moved.";
+		throw std::runtime_error(message.str());
+	}
 	if (cellController) {
 		ContactDynamicsCellController::requireSmallStrain(*scene, step->problem.meanField->gradient);
 		ContactDynamicsCellController::requireRoom(*scene, step->problem.meanField->gradient);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "EngineOrder.hpp"
 #include "ContactDynamicsCellController.hpp"
+#include <core/InteractionContainer.hpp>
 #include <core/InteractionLoop.hpp>
 #include <core/PartialEngine.hpp>
+#include <core/BodyContainer.hpp>
 #include <core/Scene.hpp>
+#include <pkg/common/Collider.hpp>
 #include <pkg/common/FieldApplier.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <algorithm>
@@ -34,7 +37,7 @@ bool hasLawForUs(const InteractionLoop& loop)
 const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& engine)
 {
 	const NewtonIntegrator* newton = nullptr;
-	bool resetBefore = false, loopBefore = false, lawBefore = false, passed = false, newtonBehind = false;
+	bool collides = false, resetBefore = false, loopBefore = false, lawBefore = false, passed = false, newtonBehind = false;
 	int integrators = 0;
 	std::string intruder; // between this engine and the integrator
 	for (const auto& other : scene.engines) {
@@ -54,6 +57,7 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 																		"O.engines, where there are no contact forces yet that it could follow. "
 																		"Put it behind NewtonIntegrator.");
 		if (name == "ForceResetter") resetBefore |= !passed;
+		collides |= dynamic_cast<const Collider*>(other.get()) != nullptr;
 		if (const auto* loop = dynamic_cast<const InteractionLoop*>(other.get())) {
 			loopBefore |= !passed;
 			lawBefore |= hasLawForUs(*loop);
@@ -73,6 +77,11 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 										 "it sets would spoil the solution. "
 										 "Put it before this engine or behind NewtonIntegrator.");
 	require(resetBefore, "no ForceResetter stands before this engine in O.engines, so forces of past steps would add up; make it the first engine.");
+	// A scene may do with interactions that were made by hand (utils.createInteraction).
+	const InteractionContainer& interactions = *scene.interactions;
+	require(collides || interactions.begin() != interactions.end() || scene.bodies->size() < 2,
+			"no (live) collider stands in O.engines and there are no interactions, so bodies would pass through one another; put "
+			"InsertionSortCollider between ForceResetter and InteractionLoop.");
 	require(loopBefore,
 			"no InteractionLoop stands before this engine in O.engines, so there are no contacts to solve; put it between collider and engine.");
 	require(lawBefore, "no InteractionLoop in O.engines has a law for ContactDynamicsPhys, so contacts would be lost; give it "

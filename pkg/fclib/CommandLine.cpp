@@ -16,7 +16,8 @@ solve  Solves each contact problem (FCLIB, HDF5) from zero impulses, and prints 
   --threads K          >= 1 (default 1)
   --acceleration A     none (plain nonlinear Gauss-Seidel) or momentum (default)
   --json OUT           also write the results as a list of {"problem", "dimension", "contacts", "tolerance", "iterations", "seconds", "error", "converged"}
-  --write FOLDER       also write each problem, reduced to local form, with the solution found, to FOLDER/NAME.hdf5
+  --write FOLDER       also write each problem, reduced to local form, with the solution found, to FOLDER/NAME.hdf5; refused where that is one of the
+                       files read, or the same for two of them
 info   Says what is in each file.
 
 error    Siconos's: with u = W r + q and P the projection on the Coulomb cone, sqrt(sum |r - P(r - u - mu |u_T| n)|^2) / max(|q|, |r|, |u|), not divided if

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iomanip>
 #include <limits>
+#include <map>
 
 namespace contactdynamics::fclib {
 
@@ -94,10 +95,56 @@ void writeJson(const std::string& path, const std::vector<Result>& results, doub
 	if (!out) throw FileError(path + ": cannot be written");
 }
 
+std::filesystem::path target(const Arguments& arguments, const std::string& file)
+{
+	return std::filesystem::path(arguments.folder) / std::filesystem::path(file).stem().concat(".hdf5");
+}
+
+/// What would be written must not replace what is read, nor one another.
+void requireOwnTargets(const Arguments& arguments)
+{
+	const auto requireNoInput = [&](const char* option, const std::filesystem::path& path) {
+		for (const std::string& input : arguments.files)
+			if (std::error_code none; std::filesystem::equivalent(path, input, none))
+				throw UsageError(std::string(option) + " would replace " + input + ", which is to be read; write elsewhere");
+	};
+	if (!arguments.json.empty()) requireNoInput("--json", arguments.json);
+	if (arguments.folder.empty()) return;
+	std::map<std::filesystem::path, std::string> sources;
+	for (const std::string& file : arguments.files) {
+		const std::filesystem::path path = target(arguments, file);
+		requireNoInput("--write", path);
+		const auto [known, isNew] = sources.emplace(path, file);
+		if (!isNew) throw UsageError("--write would put both " + known->second + " and " + file + " into " + path.string() + "; write one at a time");
+	}
+}
+
+/// Hours of solving should not end at a folder that does not exist.
+void requireWritable(const Arguments& arguments)
+{
+	std::error_code failed;
+	if (!arguments.folder.empty()) std::filesystem::create_directories(arguments.folder, failed);
+	if (failed) throw FileError(arguments.folder + ": cannot be made: " + failed.message());
+	if (!arguments.json.empty() && !std::ofstream(arguments.json, std::ios::app)) throw FileError(arguments.json + ": cannot be written");
+}
+
+/// False, for the exit code.
+bool complain(const std::exception& error)
+{
+	std::fprintf(stderr, "error: %s\n", error.what());
+	return false;
+}
+
 } // namespace
 
 bool solveFiles(const Arguments& arguments)
 {
+	requireOwnTargets(arguments);
+	try {
+		requireWritable(arguments);
+	} catch (const FileError& error) {
+		return complain(error);
+	}
 	const double tolerance = arguments.options.tolerance;
 	bool allWell = true;
 	std::vector<Result> results;
@@ -112,20 +159,15 @@ bool solveFiles(const Arguments& arguments)
 						result.report.iterations, result.seconds, result.error, verdict(result));
 			std::fflush(stdout);
 			results.push_back(result);
-			if (!arguments.folder.empty()) {
-				std::filesystem::create_directories(arguments.folder);
-				writeProblem((std::filesystem::path(arguments.folder) / (problem.name + ".hdf5")).string(), problem);
-			}
+			if (!arguments.folder.empty()) writeProblem(target(arguments, path).string(), problem);
 		} catch (const std::exception& error) {
-			std::fprintf(stderr, "error: %s\n", error.what());
-			allWell = false;
+			allWell = complain(error);
 		}
 	}
 	try {
 		if (!arguments.json.empty()) writeJson(arguments.json, results, tolerance);
 	} catch (const FileError& error) {
-		std::fprintf(stderr, "error: %s\n", error.what());
-		allWell = false;
+		allWell = complain(error);
 	}
 	return allWell;
 }

@@ -24,35 +24,53 @@ def write(path: str, engine: ContactDynamicsEngine | None = None, title: str = "
     :param path: file to write; an existing one is replaced, and its folder is made if needed.
     :param engine: whose problem; ``None`` (default) for the only ``ContactDynamicsEngine`` in ``O.engines``.
     :param title: title in the file; ``""`` (default) for the number of the step.
+    :raises TypeError: ``engine`` is no ``ContactDynamicsEngine``, or ``title`` no string
     :raises ValueError: ``engine`` not given and ``O.engines`` has none, or more than one; a step without contacts
     :raises RuntimeError: no step has been solved yet
     """
     # Imported here: scenes that write no problem do without h5py.
     import h5py
 
-    problem = (_onlyEngine() if engine is None else engine).lastProblem()
-    contacts = len(problem["friction"])
-    if contacts == 0:
+    engine = _onlyEngine() if engine is None else engine
+    if not isinstance(engine, ContactDynamicsEngine):
+        raise TypeError(f"engine is a {type(engine).__name__}; it must be a ContactDynamicsEngine")
+    if not isinstance(title, str):
+        raise TypeError(f"title is {title!r}; it must be a string")
+    problem = engine.lastProblem()
+    if not problem["friction"]:
         raise ValueError("the last step had no contact, so there is no problem to write")
-    starts, rows, values = _compressedColumns(problem)
     os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
-    with h5py.File(path, "w") as file:
-        local = file.create_group("fclib_local")
-        _integers(local, spacedim=problem["dimension"])
-        W = local.create_group("W")
-        # nz = -1 stands for compressed columns, the one layout that every reader of the library knows.
-        _integers(W, nzmax=len(values), m=3 * contacts, n=3 * contacts, nz=-1, p=starts, i=rows)
-        W["x"] = values
-        vectors = local.create_group("vectors")
-        vectors["q"] = np.array(problem["q"])
-        vectors["mu"] = np.array(problem["friction"])
-        info = local.create_group("info")
-        _text(info, "title", title or f"Contact Dynamics for YADE, step {O.iter}")
-        _text(info, "description", "Velocities in m/s, impulses in N s; components N, T1, T2; the gap velocity is part of q and u.")
-        _text(info, "math_info", "W is symmetric and positive semi-definite; u is unique, r need not be.")
-        solution = file.create_group("solution")
-        solution["r"] = np.array(problem["impulse"])
-        solution["u"] = np.array(problem["velocity"])
+    unfinished = f"{os.fspath(path)}.part"  # a file that is there already stays as it is until this one is complete
+    try:
+        with h5py.File(unfinished, "w") as file:
+            _fill(file, problem, title or f"Contact Dynamics for YADE, step {O.iter}")
+        os.replace(unfinished, path)
+    except BaseException:
+        if os.path.exists(unfinished):
+            os.remove(unfinished)
+        raise
+
+
+def _fill(file, problem: dict, title: str) -> None:
+    """All groups of a local problem with its solution."""
+    contacts = len(problem["friction"])
+    starts, rows, values = _compressedColumns(problem)
+    local = file.create_group("fclib_local")
+    _integers(local, spacedim=problem["dimension"])
+    W = local.create_group("W")
+    # nz = -1 stands for compressed columns, the one layout that every reader of the library knows.
+    _integers(W, nzmax=len(values), m=3 * contacts, n=3 * contacts, nz=-1, p=starts, i=rows)
+    W["x"] = values
+    vectors = local.create_group("vectors")
+    vectors["q"] = np.array(problem["q"])
+    vectors["mu"] = np.array(problem["friction"])
+    info = local.create_group("info")
+    _text(info, "title", title)
+    _text(info, "description", "Velocities in m/s, impulses in N s; components N, T1, T2; the gap velocity is part of q and u.")
+    _text(info, "math_info", "W is symmetric and positive semi-definite; u is unique, r need not be.")
+    solution = file.create_group("solution")
+    solution["r"] = np.array(problem["impulse"])
+    solution["u"] = np.array(problem["velocity"])
 
 
 def _onlyEngine() -> ContactDynamicsEngine:

@@ -58,6 +58,19 @@ def loadedContacts() -> list:
     return [contact for contact in O.interactions if contact.isReal and contact.phys.normalForce.squaredNorm() > 0]
 
 
+def fabric() -> np.ndarray:
+    """Fabric tensor of the contacts that carry a normal force, the mean of n (outer) n over them [-], 3 x 3, global axes; its trace is 1.
+
+    YADE's ``utils.fabricTensor()`` takes all real interactions, candidates at a distance as well.
+
+    :raises ValueError: when no contact carries a normal force.
+    """
+    normals = np.array([np.array(contact.geom.normal) for contact in loadedContacts()])
+    if not len(normals):
+        raise ValueError("no contact of the scene carries a normal force, so there is no fabric tensor")
+    return normals.T @ normals / len(normals)
+
+
 def kineticEnergyPerGrain(gravity: float = 9.81) -> float:
     """Kinetic energy of translation per grain in units of (mean weight x mean radius) [-]; small means at rest.
 

@@ -89,8 +89,27 @@ def test_unwritable_results(tmp_path):
     file = write(tmp_path / "p.hdf5", reduced(random_global(2, 3, seed=2)))
     (tmp_path / "file").write_text("")
     done = run("solve", "--json", tmp_path / "file" / "out.json", file)
-    assert done.returncode == 1 and "out.json: cannot be written" in done.stderr
+    assert done.returncode == 1 and "out.json: cannot be written" in done.stderr and done.stdout == ""  # before anything is solved
     done = run("solve", "--write", tmp_path / "file", file)
-    assert done.returncode == 1 and done.stderr.startswith("error: ")
+    assert done.returncode == 1 and done.stderr.startswith(f"error: {tmp_path / 'file'}: cannot be made") and done.stdout == ""
     json_file = tmp_path / "out.json"
     assert run("solve", "--json", json_file, file).returncode == 0 and json.loads(json_file.read_text())
+
+
+def test_what_is_read_is_never_replaced(tmp_path):
+    """Refused before anything is solved: a target that is an input, one target for two inputs."""
+    for folder in ("a", "b"):
+        (tmp_path / folder).mkdir()
+    first, second = (write(tmp_path / folder / "p.hdf5", reduced(random_global(3, 3, seed=1))) for folder in ("a", "b"))
+    before = first.read_bytes()
+    for arguments, named in (
+        (("--write", tmp_path / "a", first), str(first)),
+        (("--write", tmp_path / "a", second, first), str(first)),
+        (("--json", first, first), str(first)),
+        (("--write", tmp_path / "c", first, second), str(tmp_path / "c" / "p.hdf5")),
+    ):
+        done = run("solve", *arguments)
+        assert done.returncode == 2 and done.stdout == ""
+        assert named in done.stderr.splitlines()[0]
+    assert first.read_bytes() == before
+    assert not (tmp_path / "c").exists()

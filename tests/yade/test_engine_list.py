@@ -16,6 +16,7 @@ from yade import (
     PyRunner,
     ServoPIDController,
     TranslationEngine,
+    utils,
 )
 
 from contactdynamics import ContactDynamicsEngine
@@ -105,6 +106,24 @@ def test_dead_integrator_beside_a_living_one() -> None:
     """A dead engine does nothing, so it is no second integrator."""
     right = scene()
     O.engines = right + [NewtonIntegrator(damping=0, dead=True)]
+    works()
+
+
+def test_no_collider() -> None:
+    right = scene()
+    O.engines = without(right, "InsertionSortCollider")
+    refused("collider")
+    O.engines = right
+    engine("InsertionSortCollider").dead = True
+    refused("collider")
+    engine("InsertionSortCollider").dead = False
+    works()
+
+
+def test_interactions_made_by_hand_need_no_collider() -> None:
+    right = scene()
+    O.engines = without(right, "InsertionSortCollider")
+    utils.createInteraction(0, 1)
     works()
 
 

@@ -134,3 +134,19 @@ def test_problem_of_a_step_that_did_not_converge(tmp_path):
     fclib.write(str(tmp_path / "step.hdf5"))
     W, q, mu, r, u = read(tmp_path / "step.hdf5")
     assert residual(W, u, mu, r) == pytest.approx(cd().residual, rel=1e-3)
+
+
+def test_what_is_there_survives_a_write_that_fails(tmp_path):
+    """Wrong arguments are refused before anything is written; a write that fails in the middle leaves the file of before."""
+    heap()
+    path = tmp_path / "step.hdf5"
+    fclib.write(str(path))
+    before = path.read_bytes()
+    with pytest.raises(TypeError, match="engine is a ForceResetter"):
+        fclib.write(str(path), engine=O.engines[0])
+    with pytest.raises(TypeError, match="title is 5"):
+        fclib.write(str(path), title=5)
+    with pytest.raises(UnicodeEncodeError):
+        fclib.write(str(path), title="\ud800")
+    assert path.read_bytes() == before
+    assert [file.name for file in tmp_path.iterdir()] == ["step.hdf5"]

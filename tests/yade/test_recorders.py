@@ -134,6 +134,19 @@ def test_stress_of_the_packing_and_of_each_body() -> None:
 
     normals = np.array([vec(i.geom.normal) for i in O.interactions if i.isReal])
     assert close(matrix(utils.fabricTensor()[0]), normals.T @ normals / len(normals), 1)
+    loaded = np.array([vec(i.geom.normal) for i in O.interactions if i.isReal and i.phys.normalForce.norm() > 0])
+    assert 0 < len(loaded) < len(normals)
+    assert close(report.fabric(), loaded.T @ loaded / len(loaded), 1)
+
+
+def test_no_fabric_without_a_contact() -> None:
+    material(friction=0)
+    floor()
+    grain((0, 0, 5))
+    equip(H)
+    steps(1)
+    with pytest.raises(ValueError, match="no contact"):
+        report.fabric()
 
 
 def test_moment_tensor_of_a_loaded_ball() -> None:
