@@ -12,7 +12,7 @@ std::vector<ContactDynamicsStep::Twist> ContactDynamicsStep::free() const
 {
 	std::vector<Twist> twists;
 	twists.reserve(motions.size());
-	for (const FreeMotion& motion : motions) twists.push_back({motion.velocity, motion.angularVelocity});
+	for (std::size_t i = 0; i < motions.size(); i++) twists.push_back(freeOf(static_cast<int>(i)));
 	return twists;
 }
 

@@ -75,12 +75,11 @@ public:
 	}
 
 	/// Momentum has once failed to make progress.
-	bool hasStalled() const { return stalled; }
+	bool hasStalled() const { return window > patience; }
 
 private:
 	void settleDown()
 	{
-		stalled = true;
 		settling = window / 6 * 5;
 		window *= 2;
 		best = smallest = -1;
@@ -88,16 +87,15 @@ private:
 		restart = 1;
 	}
 
-	static constexpr int stretch = 8, soon = 60; // sweeps
-	bool easy;									 // plain sweeps will do
+	static constexpr int stretch = 8, soon = 60, patience = 120; // sweeps
+	bool easy;													 // plain sweeps will do
 	int count = 0;
 	double before = 0;	  // increment a stretch ago
 	double restart = 1;	  // t of the class comment
 	double smallest = -1; // increment since the restart
 	double best = -1;
-	int sinceBest = 0, window = 120; // sweeps without progress, now and at most
-	int settling = 0;				 // sweeps with a light momentum that are left
-	bool stalled = false;
+	int sinceBest = 0, window = patience; // sweeps without progress, now and at most
+	int settling = 0;					  // sweeps with a light momentum that are left
 };
 
 } // namespace contactdynamics

@@ -93,6 +93,7 @@ int leadOfMomentum(std::size_t movingBodies)
 	const double inARow = std::cbrt(static_cast<double>(movingBodies));
 	return static_cast<int>(12 * inARow * inARow);
 }
+
 } // namespace
 
 /// Whether contacts that are crushed at a solution still are when the sweeps go on from there.
