@@ -62,11 +62,24 @@ def test_damping(damping: float) -> None:
     works()
 
 
-def test_no_integrator() -> None:
+NEEDED = [("NewtonIntegrator", "live|dead"), ("InsertionSortCollider", "collider"), ("ForceResetter", "ForceResetter")]
+
+
+@pytest.mark.parametrize("class_name, word", NEEDED)
+def test_missing(class_name: str, word: str) -> None:
     right = scene()
-    O.engines = without(right, "NewtonIntegrator")
-    refused("NewtonIntegrator")
+    O.engines = without(right, class_name)
+    refused(class_name, word)
     O.engines = right
+    works()
+
+
+@pytest.mark.parametrize("class_name, word", NEEDED)
+def test_dead(class_name: str, word: str) -> None:
+    scene()
+    engine(class_name).dead = True
+    refused(class_name, word)
+    engine(class_name).dead = False
     works()
 
 
@@ -94,29 +107,10 @@ def test_one_integrator_before_and_one_after() -> None:
     works()
 
 
-def test_dead_integrator() -> None:
-    scene()
-    engine("NewtonIntegrator").dead = True
-    refused("NewtonIntegrator", "live|dead")
-    engine("NewtonIntegrator").dead = False
-    works()
-
-
 def test_dead_integrator_beside_a_living_one() -> None:
     """A dead engine does nothing, so it is no second integrator."""
     right = scene()
     O.engines = right + [NewtonIntegrator(damping=0, dead=True)]
-    works()
-
-
-def test_no_collider() -> None:
-    right = scene()
-    O.engines = without(right, "InsertionSortCollider")
-    refused("collider")
-    O.engines = right
-    engine("InsertionSortCollider").dead = True
-    refused("collider")
-    engine("InsertionSortCollider").dead = False
     works()
 
 
@@ -127,14 +121,6 @@ def test_interactions_made_by_hand_need_no_collider() -> None:
     works()
 
 
-def test_no_force_resetter() -> None:
-    right = scene()
-    O.engines = without(right, "ForceResetter")
-    refused("ForceResetter")
-    O.engines = right
-    works()
-
-
 def test_force_resetter_after_the_engine() -> None:
     """Contact forces would be wiped before the integrator sees them."""
     right = scene()
@@ -142,14 +128,6 @@ def test_force_resetter_after_the_engine() -> None:
     O.engines = right[1:-1] + [resetter, right[-1]]
     refused("ForceResetter")
     O.engines = right
-    works()
-
-
-def test_dead_force_resetter() -> None:
-    scene()
-    engine("ForceResetter").dead = True
-    refused("ForceResetter")
-    engine("ForceResetter").dead = False
     works()
 
 
