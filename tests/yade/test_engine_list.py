@@ -206,6 +206,22 @@ def test_dead_engine_applies_nothing() -> None:
     assert state(1).vel[2] == pytest.approx(-5 * 9.81 * H, rel=1e-12)
 
 
+def test_missing_engine_is_told_once(capfd) -> None:
+    """A functor must not throw, so what nobody solves is said on standard error; a dead engine is the user's will."""
+    right = scene()
+    engine("ContactDynamicsEngine").dead = True
+    steps(3)
+    assert "WARNING" not in capfd.readouterr().err
+    engine("ContactDynamicsEngine").dead = False
+    for _ in range(2):
+        O.engines = without(right, "ContactDynamicsEngine")
+        steps(3)
+        assert capfd.readouterr().err.count("no ContactDynamicsEngine in O.engines") == 1
+        O.engines = right
+        steps(1)
+        assert "no ContactDynamicsEngine" not in capfd.readouterr().err
+
+
 def test_mistake_made_in_mid_run_is_found() -> None:
     scene()
     steps(10)
