@@ -20,12 +20,12 @@ double secondsNow() { return std::chrono::duration<double>(std::chrono::steady_c
 
 } // namespace
 
-Crew::Crew(int threads) : wanted(threads)
+Crew::Crew(int threads) : wanted(threads), desks(std::size_t(std::max(threads, 1))), tallies(desks.size())
 {
 	mates.reserve(threads > 1 ? threads - 1 : 0);
 	for (int i = 1; i < threads; ++i) {
 		try {
-			mates.emplace_back([this] { assist(); });
+			mates.emplace_back([this, i] { assist(std::size_t(i)); });
 		} catch (const std::system_error&) {
 			return;
 		}
@@ -39,13 +39,20 @@ Crew::~Crew()
 	for (std::thread& mate : mates) mate.join();
 }
 
-bool Crew::jobOpen() const
+bool Crew::jobOpen(std::size_t desk) const
 {
-	const std::uint64_t now = board.load();
+	const std::uint64_t now = desks[desk].open.load();
 	return (now & 0xffffffff) < (now >> 32);
 }
 
-/// Wakes the mates that sleep. Sequentially consistent order does it: either the leader sees a mate as asleep, or that mate sees the new board.
+bool Crew::allDone() const
+{
+	std::size_t done = 0;
+	for (const Tally& tally : tallies) done += tally.done.load(std::memory_order_acquire);
+	return done == issued;
+}
+
+/// Wakes the mates that sleep. Sequentially consistent order does it: either the leader sees a mate as asleep, or that mate sees its desk.
 void Crew::ring()
 {
 	if (asleep.load() == 0) return;
@@ -55,31 +62,41 @@ void Crew::ring()
 	bell.notify_all();
 }
 
-/// Takes and does one job; false when none is open. Both ends of the open jobs are one word: a thread that comes late finds either no open job or
-/// valid ones, never one of a stage that is over.
-bool Crew::takeJob(End end)
+/// Takes and does one job, from the front of the thread's own desk or the back of another one; false when none is open there. Both ends of the open
+/// jobs are one word: a thread that comes late finds either no open job or valid ones, never one of a stage that is over.
+bool Crew::takeJob(std::size_t thread, std::size_t desk)
 {
 	constexpr std::uint64_t half = 0xffffffff;
-	std::uint64_t now = board.load(std::memory_order_acquire), next;
+	const bool own = thread == desk;
+	std::atomic<std::uint64_t>& open = desks[desk].open;
+	std::uint64_t now = open.load(std::memory_order_acquire), next;
 	do {
 		if ((now & half) >= (now >> 32)) return false;
-		next = end == End::front ? now + 1 : now - (half + 1);
-	} while (!board.compare_exchange_weak(now, next, std::memory_order_acq_rel, std::memory_order_acquire));
-	call(context, first + (end == End::front ? now & half : (now >> 32) - 1));
-	done.fetch_add(1, std::memory_order_acq_rel);
+		next = own ? now + 1 : now - (half + 1);
+	} while (!open.compare_exchange_weak(now, next, std::memory_order_acq_rel, std::memory_order_acquire));
+	call(context, first + (own ? now & half : (now >> 32) - 1));
+	std::atomic<std::size_t>& done = tallies[thread].done;
+	done.store(done.load(std::memory_order_relaxed) + 1, std::memory_order_release);
 	return true;
+}
+
+void Crew::work(std::size_t thread)
+{
+	for (std::size_t k = 0; k < desks.size(); ++k)
+		while (takeJob(thread, (thread + k) % desks.size())) {}
 }
 
 void Crew::stage(std::size_t firstJob, std::size_t count)
 {
 	first = firstJob;
-	done.store(0, std::memory_order_relaxed);
-	board.store(std::uint64_t(count) << 32);
+	issued += count;
+	const std::size_t present = mates.size() + 1;
+	for (std::size_t k = present; k-- > 0;) desks[k].open.store(std::uint64_t((k + 1) * count / present) << 32 | k * count / present);
 	ring();
-	while (takeJob(End::front)) {}
+	work(0);
 	constexpr int patience = 20000; // pauses, some tenths of a millisecond: longer than the longest job
 	int spins = 0;
-	for (; done.load(std::memory_order_acquire) != count; ++spins) {
+	for (; !allDone(); ++spins) {
 		if (spins < patience)
 			pauseBriefly();
 		else
@@ -113,18 +130,19 @@ void Crew::forgive()
 
 /// Stages follow each other within microseconds: a mate spins for some, then sleeps. It does not yield: recent kernels count that against the
 /// thread, and a mate that yielded was not seen again for milliseconds.
-void Crew::assist()
+void Crew::assist(std::size_t thread)
 {
 	int spins = 0;
 	while (!dismissed.load(std::memory_order_acquire)) {
-		if (takeJob(End::back))
+		if (jobOpen(thread)) {
+			work(thread);
 			spins = 0;
-		else if (!resting.load(std::memory_order_relaxed) && ++spins < 20000)
+		} else if (!resting.load(std::memory_order_relaxed) && ++spins < 20000)
 			pauseBriefly();
 		else {
 			asleep.fetch_add(1);
 			std::unique_lock<std::mutex> lock(bed);
-			bell.wait(lock, [this] { return jobOpen() || dismissed.load(); });
+			bell.wait(lock, [this, thread] { return jobOpen(thread) || dismissed.load(); });
 			lock.unlock();
 			asleep.fetch_sub(1);
 			spins = 0;

@@ -6,7 +6,7 @@ namespace contactdynamics {
 
 namespace {
 
-constexpr std::size_t packsPerChunk = 32, generalsPerChunk = 32;
+constexpr std::size_t packsPerChunk = 16, generalsPerChunk = 32; // a microsecond: what threads may wait for each other at the end of a colour
 
 } // namespace
 
