@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "EngineOrder.hpp"
 #include "ContactDynamicsCellController.hpp"
-#include "ContactDynamicsEngine.hpp"
 #include <core/InteractionContainer.hpp>
 #include <core/InteractionLoop.hpp>
 #include <core/PartialEngine.hpp>
@@ -11,8 +10,6 @@
 #include <pkg/common/FieldApplier.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <algorithm>
-#include <atomic>
-#include <iostream>
 #include <sstream>
 #include <stdexcept>
 
@@ -96,22 +93,6 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 	require(newton->damping == 0,
 			"NewtonIntegrator.damping is " + damping.str() + "; it must be 0: damped velocities no longer satisfy the contact law.");
 	return *newton;
-}
-
-void warnWithoutSolver(const Scene& scene)
-{
-	static std::atomic<long> lookedAt{-1};
-	// Of all threads that come by in a step one goes on.
-	if (lookedAt.load(std::memory_order_relaxed) == scene.iter || lookedAt.exchange(scene.iter) == scene.iter) return;
-	static bool said = false;
-	const bool solves = std::any_of(scene.engines.begin(), scene.engines.end(),
-									[](const auto& engine) { return dynamic_cast<const ContactDynamicsEngine*>(engine.get()) != nullptr; });
-	if (!solves && !said)
-		std::cerr << "WARNING: Law2_ScGeom_ContactDynamicsPhys_SignoriniCoulomb: there is no ContactDynamicsEngine in O.engines, so its contacts get no "
-					 "force and bodies pass through one another. Put one between InteractionLoop and NewtonIntegrator, or take the list that "
-					 "contactdynamics.engines() returns. Said once."
-				  << std::endl;
-	said = !solves;
 }
 
 ContactDynamicsCellController* findCellController(const Scene& scene)

@@ -15,10 +15,6 @@ class Scene;
 /// @throws std::runtime_error  naming what is missing or misplaced and how to mend it
 const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& engine);
 
-/// Says on standard error, once until the engine is there again, that O.engines has no ContactDynamicsEngine, not even a dead one: contacts of our law
-/// then get no force at all. For functors, which must not throw; costs next to nothing after the first call in a step.
-void warnWithoutSolver(const Scene& scene);
-
 /// The live ContactDynamicsCellController of the scene, or null.
 /// @throws std::runtime_error  there are two
 ContactDynamicsCellController* findCellController(const Scene& scene);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "ContactDynamicsPhys.hpp"
+#include "MissingEngine.hpp"
 #include <core/Dispatching.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -18,6 +19,9 @@ public:
 		"plus 5 % of its radius. The decision depends on the current state only, so it is the same after loading a saved scene."
 	);
 	// clang-format on
+
+private:
+	MissingEngine missingEngine;
 };
 REGISTER_SERIALIZABLE(Law2_ScGeom_ContactDynamicsPhys_SignoriniCoulomb);
 

@@ -5,12 +5,12 @@
 #include "BlockProblem.hpp"
 #include "BlockResidual.hpp"
 #include "BlockRows.hpp"
+#include "ContactsApart.hpp"
 #include "CrushedContacts.hpp"
 #include "OneContact.hpp"
 #include "OneContact2D.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <type_traits>
 
 namespace contactdynamics {
@@ -54,7 +54,11 @@ public:
 	SweepNorms sweep(Extrapolation by)
 	{
 		prepare();
-		if (visitedAll && !sorted) sortOutApart();
+		if (visitedAll && !sortedOut) {
+			sortedOut = true;
+			contacts.sortOut(problem);
+			solveApart();
+		}
 		if (by.relax != 0 || by.momentum != 0) {
 			for (std::size_t i = 0; i < lanes.size(); ++i) {
 				const Vector ahead = by.relax * visited[i].increment + by.momentum * visited[i].direction;
@@ -67,8 +71,8 @@ public:
 		SweepNorms norms = knowsApart() ? visit<false>() : visit<true>();
 		if (knowsApart())
 			norms.impulse2 += apartImpulse2;
-		else if (sorted)
-			measureApart();
+		else
+			solveApart();
 		visitedAll = true;
 		return norms;
 	}
@@ -78,7 +82,7 @@ public:
 		if (measure == Measure::naturalMap) prepare();
 		BlockResidual<D> residual = knowsApart() ? apartResidual : BlockResidual<D>(measure);
 		if (knowsApart())
-			for (const std::size_t i : coupled) addTo(residual, i);
+			for (const std::size_t i : contacts.others) addTo(residual, i);
 		else
 			for (std::size_t i = 0; i < lanes.size(); ++i) addTo(residual, i);
 		return residual.value();
@@ -185,24 +189,24 @@ private:
 	bool atZero = false;		  // all impulses are zero
 	std::vector<Visited> visited; // empty until the first visit: a start that solves the problem does without
 
-	// Contacts on which no other one acts, looked for in the second sweep, because many small problems need one only.
-	bool visitedAll = false; // since impulses were last given
-	bool sorted = false;
-	std::vector<std::size_t> apart, coupled;
+	bool visitedAll = false;   // since impulses were last given
+	bool sortedOut = false;	   // in the second sweep, because many small problems need one only
+	ContactsApart<D> contacts; // those apart are not visited any more once visitedAll
 	double apartImpulse2 = 0;
+	const Block none = Block::Zero();		 // where the measure does not use W
 	BlockResidual<D> apartResidual{measure}; // where they are solved
 
-	bool knowsApart() const { return visitedAll && !apart.empty(); }
+	bool knowsApart() const { return visitedAll && !contacts.apart.empty(); }
 
-	/// All contacts one after the other, or those that are coupled.
+	/// All contacts one after the other, or those that are not apart.
 	template <bool all> SweepNorms visit()
 	{
 		SweepNorms norms;
 		Vector r;						 // of the last contact visited, stored by the next product
 		std::size_t last = lanes.size(); // that contact
-		const std::size_t count = all ? lanes.size() : coupled.size();
+		const std::size_t count = all ? lanes.size() : contacts.others.size();
 		for (std::size_t k = 0; k < count; ++k) {
-			const std::size_t i = all ? k : coupled[k];
+			const std::size_t i = all ? k : contacts.others[k];
 			const bool follows = all ? k > 0 : last + 1 == i;
 			if (!all && !follows && k > 0) put(last, r);
 			Visited& contact = visited[i];
@@ -220,32 +224,14 @@ private:
 		return norms;
 	}
 
-	void sortOutApart()
-	{
-		sorted = true;
-		for (std::size_t i = 0; i < lanes.size(); ++i)
-			if (isApart(i)) apart.push_back(i);
-		if (8 * apart.size() < lanes.size()) apart.clear(); // gaps in the order cost more than they save
-		if (apart.empty()) return;
-		for (std::size_t i = 0; i < lanes.size(); ++i)
-			if (!isApart(i)) coupled.push_back(i);
-		measureApart();
-	}
-
-	/// With an unsymmetric block of its own a visit is a step only, see diagonalBlock().
-	bool isApart(std::size_t i) const
-	{
-		if (problem.rowStart[i + 1] - problem.rowStart[i] > 1) return false;
-		const Block W = Eigen::Map<const Eigen::Matrix<double, D, D, Eigen::RowMajor>>(&problem.blocks[D * D * std::size_t(problem.rowStart[i])]);
-		return (W - W.transpose()).cwiseAbs().maxCoeff() <= 4 * std::numeric_limits<double>::epsilon() * W.cwiseAbs().maxCoeff();
-	}
-
-	/// What the contacts apart, just visited, add to the sums; they have come to rest.
-	void measureApart()
+	/// Solves the contacts apart for good, and what they add to the sums.
+	void solveApart()
 	{
 		apartImpulse2 = 0;
 		apartResidual = BlockResidual<D>(measure);
-		for (const std::size_t i : apart) {
+		for (const std::size_t i : contacts.apart) {
+			// From q itself: the visit in the sweep has the round-off of the impulse that it started from.
+			put(i, visited[i].visit(Vector::Zero(), at(problem.q, i), problem.friction[i]));
 			visited[i].increment.setZero();
 			visited[i].direction.setZero();
 			apartImpulse2 += impulse(i).dot(visited[i].W * impulse(i));
@@ -255,7 +241,6 @@ private:
 
 	[[gnu::always_inline]] void addTo(BlockResidual<D>& residual, std::size_t i)
 	{
-		static const Block none = Block::Zero();
 		residual.add(impulse(i), velocityAt(i), at(problem.q, i), problem.friction[i], measure == Measure::naturalMap ? visited[i].W : none);
 	}
 

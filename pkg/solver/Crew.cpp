@@ -52,10 +52,9 @@ bool Crew::allDone() const
 	return done == issued;
 }
 
-/// Wakes the mates that sleep. Sequentially consistent order does it: either the leader sees a mate as asleep, or that mate sees its desk.
+/// Wakes the mates that sleep.
 void Crew::ring()
 {
-	if (asleep.load() == 0) return;
 	{
 		const std::lock_guard<std::mutex> lock(bed);
 	}
@@ -90,9 +89,14 @@ void Crew::stage(std::size_t firstJob, std::size_t count)
 {
 	first = firstJob;
 	issued += count;
-	const std::size_t present = mates.size() + 1;
-	for (std::size_t k = present; k-- > 0;) desks[k].open.store(std::uint64_t((k + 1) * count / present) << 32 | k * count / present);
-	ring();
+	const std::size_t hands = std::min(mates.size() + 1, count);
+	bool asleep = false;
+	for (std::size_t k = hands; k-- > 0;) { // the leader's own last: mates may begin
+		desks[k].open.store(std::uint64_t((k + 1) * count / hands) << 32 | k * count / hands);
+		// Sequentially consistent order: either the mate is seen asleep here, or it sees its desk before it sleeps.
+		asleep = asleep || desks[k].asleep.load();
+	}
+	if (asleep) ring();
 	work(0);
 	constexpr int patience = 20000; // pauses, some tenths of a millisecond: longer than the longest job
 	int spins = 0;
@@ -140,11 +144,11 @@ void Crew::assist(std::size_t thread)
 		} else if (!resting.load(std::memory_order_relaxed) && ++spins < 20000)
 			pauseBriefly();
 		else {
-			asleep.fetch_add(1);
+			desks[thread].asleep.store(true);
 			std::unique_lock<std::mutex> lock(bed);
 			bell.wait(lock, [this, thread] { return jobOpen(thread) || dismissed.load(); });
 			lock.unlock();
-			asleep.fetch_sub(1);
+			desks[thread].asleep.store(false);
 			spins = 0;
 		}
 	}

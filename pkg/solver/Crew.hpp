@@ -14,10 +14,9 @@ namespace contactdynamics {
 ///
 /// The leader deals the jobs of a stage out to desks, one of each thread, in runs of neighbours: so each core meets the same bodies again in the next
 /// colour. Everybody works off the own desk from the front, then the others' from the back, so that the leader never waits for a thread, only for a
-/// job that a mate has begun. One desk for all was rejected: its cache line goes from core to core with each job (sweep of 1.6e4 contacts, jobs of 64
-/// of them: 135 against 130 microseconds on two near cores; jobs of 128: 138 against 136). OpenMP's barriers were rejected: on a machine with other
-/// work each of them waits for every thread to be scheduled again, and a sweep of ten colours, 20 microseconds of work, took 40 milliseconds on two
-/// busy cores. Which thread does a job is a matter of chance; results must not depend on it.
+/// job that a mate has begun. OpenMP's barriers were rejected: on a machine with other work each of them waits for every thread to be scheduled
+/// again, and a sweep of ten colours, 20 microseconds of work, took 40 milliseconds on two busy cores. So was one desk for all, whose cache line goes
+/// from core to core with each job (doc/grains.rst). Which thread does a job is a matter of chance; results must not depend on it.
 class Crew {
 public:
 	/// Mates for the life time of the object; none when the system refuses more threads: then the leader does all. They sleep until resume().
@@ -62,6 +61,7 @@ private:
 	double aloneUntil = 0, penalty = leastPenalty, togetherSince = 0;
 	struct alignas(64) Desk {
 		std::atomic<std::uint64_t> open{0}; // jobs: one past the last (upper half) and the first (lower half)
+		std::atomic<bool> asleep{false};	// its mate waits for the bell, because nothing came for a while
 	};
 	struct alignas(64) Tally {
 		std::atomic<std::size_t> done{0}; // jobs, since the beginning, by the one thread that writes here
@@ -70,8 +70,7 @@ private:
 	alignas(64) std::vector<Desk> desks; // of the leader, then of the mates
 	std::vector<Tally> tallies;
 	std::atomic<bool> dismissed{false}, resting{true};
-	std::atomic<int> asleep{0}; // mates that wait for the bell because nothing came for a while
-	std::mutex bed;
+	alignas(64) std::mutex bed;
 	std::condition_variable bell;
 
 	bool jobOpen(std::size_t desk) const;
