@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "EngineOrder.hpp"
 #include "ContactDynamicsCellController.hpp"
+#include <core/BodyContainer.hpp>
 #include <core/InteractionContainer.hpp>
 #include <core/InteractionLoop.hpp>
 #include <core/PartialEngine.hpp>
-#include <core/BodyContainer.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Collider.hpp>
 #include <pkg/common/FieldApplier.hpp>

@@ -11,7 +11,7 @@ class Scene;
 class MissingEngine {
 public:
 	/// Says on standard error, once until the engine is there again, that there is none, not even a dead one: contacts of our law then get no force
-	/// at all. An exception is not possible: YADE calls functors inside OpenMP loops, where it ends the process.
+	/// at all. It cannot be raised, see DeferredError: the engine that would raise it is missing.
 	void lookFor(const Scene& scene);
 
 private:

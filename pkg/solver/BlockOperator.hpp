@@ -57,7 +57,7 @@ public:
 		if (visitedAll && !sortedOut) {
 			sortedOut = true;
 			contacts.sortOut(problem);
-			solveApart();
+			settleApart();
 		}
 		if (by.relax != 0 || by.momentum != 0) {
 			for (std::size_t i = 0; i < lanes.size(); ++i) {
@@ -68,11 +68,14 @@ public:
 		} else
 			for (Visited& contact : visited) contact.direction = contact.increment;
 		atZero = false;
-		SweepNorms norms = knowsApart() ? visit<false>() : visit<true>();
-		if (knowsApart())
+		SweepNorms norms;
+		if (knowsApart()) {
+			norms = visit<false>();
 			norms.impulse2 += apartImpulse2;
-		else
-			solveApart();
+		} else {
+			norms = visit<true>();
+			settleApart();
+		}
 		visitedAll = true;
 		return norms;
 	}
@@ -225,12 +228,13 @@ private:
 	}
 
 	/// Solves the contacts apart for good, and what they add to the sums.
-	void solveApart()
+	void settleApart()
 	{
 		apartImpulse2 = 0;
 		apartResidual = BlockResidual<D>(measure);
 		for (const std::size_t i : contacts.apart) {
-			// From q itself: the visit in the sweep has the round-off of the impulse that it started from.
+			// From nothing: the visit in the sweep has the round-off of the impulse that it started from.
+			visited[i].slidingRate = 0;
 			put(i, visited[i].visit(Vector::Zero(), at(problem.q, i), problem.friction[i]));
 			visited[i].increment.setZero();
 			visited[i].direction.setZero();

@@ -11,6 +11,7 @@
 namespace contactdynamics {
 
 /// Contacts of a block problem on which no other one acts: one visit from no impulse at all solves them for good, whatever the others do.
+/// Where all are, BlocksApart.hpp does without an operator.
 template <int D> struct ContactsApart {
 	std::vector<std::size_t> apart, others; ///< both empty until sortOut(), and where it is not worth while
 
