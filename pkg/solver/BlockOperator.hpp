@@ -47,7 +47,6 @@ public:
 	}
 
 	static constexpr bool startsPlainly = false; ///< BlockSolver sees to that
-	static constexpr int plainEnd = 0;			 ///< it keeps the best point
 	bool anyAwake() const { return !lanes.empty(); }
 	bool mend() { return false; }
 

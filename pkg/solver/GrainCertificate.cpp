@@ -26,20 +26,22 @@ void finishContact(Contact& c, const Vector3& impulse)
 
 } // namespace
 
-void GrainOperator::collectImpulses()
+/// Zero for contacts that sleep.
+void GrainOperator::collectImpulses(std::vector<Vector3>& r)
 {
 	const auto& contacts = problem->contacts;
+	r.assign(contacts.size(), Vector3::Zero());
 	inRuns(packs.size(), [&](std::size_t i) {
 		const BallPack& p = packs[i];
 		for (int k = 0; k < 4; ++k) {
 			if (p.id[k] < 0) continue;
 			const Contact& c = contacts[p.id[k]];
-			impulses[p.id[k]] = insideCone({p.impulse[0][k], p.impulse[1][k], p.impulse[2][k]}, c.normal, c.friction);
+			r[p.id[k]] = insideCone({p.impulse[0][k], p.impulse[1][k], p.impulse[2][k]}, c.normal, c.friction);
 		}
 	});
 	inRuns(generals.size(), [&](std::size_t i) {
 		const GeneralContact& g = generals[i];
-		impulses[g.id] = insideCone(g.frame.transpose() * g.impulse, contacts[g.id].normal, g.friction);
+		r[g.id] = insideCone(g.frame.transpose() * g.impulse, contacts[g.id].normal, g.friction);
 	});
 }
 
@@ -227,7 +229,7 @@ void GrainOperator::finish(SolveReport& report)
 	});
 	if (hasField()) problem->meanField->gradient = gradient;
 	report.maxApproachSpeed = maxApproachSpeed;
-	collectImpulses();
+	collectImpulses(impulses);
 	active.assign((impulses.size() + perRun - 1) / perRun, 0);
 	inRuns(impulses.size(), [this](std::size_t i) {
 		Contact& c = problem->contacts[i];

@@ -54,6 +54,13 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 	// Where nothing closes, no impulse at all is an exact solution; from impulses of before the sweeps would only creep up to it.
 	if (!closes)
 		for (Vector3& impulse : impulses) impulse.setZero();
+	beginAtImpulses();
+}
+
+/// From free velocities and feasible impulses to those that the impulses give, and the layout of the contacts.
+void GrainOperator::beginAtImpulses()
+{
+	const auto& contacts = problem->contacts;
 	for (std::size_t i = 0; i < impulses.size(); ++i)
 		if (!impulses[i].isZero(0)) addImpulse(contacts[i], impulses[i]);
 	if (hasField()) sumMoment();
@@ -67,7 +74,7 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 	// Awake at first: what carries an impulse, closes, or could be closed by a change of velocity as large as the fastest approach.
 	double fastest = 0;
 	const auto approach = [&](std::size_t i) { return normalVelocity(contacts[i]) + contacts[i].gapVelocity; };
-	sums.assign(sums.size(), Sums{});
+	sums.assign((contacts.size() + perRun - 1) / perRun, Sums{});
 	inRuns(contacts.size(), [&](std::size_t i) { sums[i / perRun].approach = std::max(sums[i / perRun].approach, -approach(i)); });
 	for (const Sums& run : sums) fastest = std::max(fastest, run.approach);
 	mustWake.resize(contacts.size());
@@ -104,6 +111,16 @@ double GrainOperator::normalVelocity(const Sleeper& s) const
 	if (s.turns) return normalVelocity(problem->contacts[s.id]);
 	const double field = hasField() ? s.reach * s.normal.dot(gradient * s.normal) : 0;
 	return (velocity(state[s.body2]) - velocity(state[s.body1])).dot(s.normal) + field;
+}
+
+void GrainOperator::keep() { collectImpulses(kept); }
+
+void GrainOperator::exchangeKept()
+{
+	collectImpulses(impulses);
+	impulses.swap(kept);
+	freeVelocities();
+	beginAtImpulses();
 }
 
 void GrainOperator::extrapolate(Extrapolation by, std::size_t first, std::size_t last)

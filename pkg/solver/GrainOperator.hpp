@@ -29,7 +29,6 @@ public:
 	static constexpr std::size_t blockwiseFrom = 40000; ///< contacts from which on a sweep goes block by block: it no longer fits the caches
 	static constexpr int firstCheck = 0;				///< a certificate costs a sweep: wait until the increments promise convergence
 	static constexpr bool startsPlainly = true;
-	static constexpr int plainEnd = 32;
 	bool anyAwake() const { return awake > 0; }
 	std::size_t awakeContacts() const { return awake; } ///< those that a sweep visits
 	std::size_t movingBodies() const { return std::size_t(std::count(movable.begin(), movable.end(), 1)); }
@@ -37,6 +36,8 @@ public:
 	SweepNorms sweep(Extrapolation by);
 	bool mend();
 	double certificate();
+	void keep();
+	void exchangeKept();
 
 	/// Contacts that impulses, however large, do not stop, at the point of the last certificate(). None where standing still is admissible for all
 	/// that can move: then there is a solution, however slowly it is approached (a light grain between a wall and a heavy one).
@@ -97,6 +98,7 @@ private:
 	std::vector<BodyState> state, sweepStart, direction; // by seat: velocities now, at the start of the last sweep, and of the search direction
 	std::vector<std::uint8_t> movable;
 	std::vector<Vector3> impulses; // per contact, global axes, inside the cone: those of the start, and from finish() on those of the end
+	std::vector<Vector3> kept;	   // likewise
 	std::vector<std::uint8_t> mustWake;
 	std::vector<Sums> sums;
 	std::vector<int> active; // contacts that carry an impulse, by run
@@ -140,6 +142,7 @@ private:
 	double normalVelocity(const Contact& c) const;
 	void addImpulse(const Contact& c, const Vector3& impulse);
 	void takeSeats();
+	void beginAtImpulses();
 	void layOut(const std::vector<std::int32_t>& ids);
 	void layOutByColour(const std::vector<std::int32_t>& ids);
 	void layOutByBlock(const std::vector<std::int32_t>& ids);
@@ -157,7 +160,7 @@ private:
 	void addFieldPasses();
 	double mobility(double W, const Contact& c) const;
 	void visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by, FieldPass* field);
-	void collectImpulses();
+	void collectImpulses(std::vector<Vector3>& r);
 	double speedsAt(const Contact& c) const;
 	bool mayStandStill() const;
 	void freeVelocities();

@@ -2,7 +2,7 @@
 #include "SignoriniCoulombSolver.hpp"
 
 #include "GrainOperator.hpp"
-#include "SignoriniCoulombLoop.hpp"
+#include "GuardedLoop.hpp"
 
 #include <cmath>
 #include <limits>
@@ -124,9 +124,9 @@ SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOpt
 	Crew& crew = workspace->crewFor(problem, options.threads);
 	const AtWork work(crew);
 	grains.start(problem, options.acceleration != Acceleration::none, crew);
-	const LoopResult result = signoriniCoulombLoop(grains, options, leadOfMomentum(grains.movingBodies()), [&] {
+	const GuardedResult result = guardedLoop(grains, options, leadOfMomentum(grains.movingBodies()), [&]() -> GrainOperator& {
 		rival.start(problem, false, crew);
-		return &rival;
+		return rival;
 	});
 	report.iterations = result.iterations;
 	report.residual = result.residual;

@@ -5,7 +5,7 @@ namespace contactdynamics {
 
 enum class SolveStatus {
 	converged,	   ///< residual <= tolerance at the returned point
-	maxIterations, ///< residual > tolerance: the returned point is the last one, inside the cones and consistent with the velocities
+	maxIterations, ///< residual > tolerance; the point, the best one kept (plain sweeps: the last), is in the cones and goes with the velocities
 	notFinite,	   ///< input or iterate not finite: bodies and impulses are left as given
 	unbounded	   ///< the tolerance is met, but by impulses that grow without bound while contacts go on closing, see CrushedContacts.hpp
 };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace contactdynamics {
 
@@ -13,11 +14,11 @@ namespace contactdynamics {
 ///
 ///     int firstCheck                          sweep after which the certificate is evaluated to gauge the increments; 0: not before they promise
 ///     bool startsPlainly                      plain sweeps before momentum, while they promise to be done soon
-///     int plainEnd                            plain sweeps before maxIterations ends it all
 ///     bool anyAwake()                         false when no contact needs a visit
 ///     SweepNorms sweep(Extrapolation)         moves to the extrapolated point, then visits every awake contact once
 ///     bool mend()                             looks after sleeping contacts; true when one of them was woken
 ///     double certificate()                    residual over all contacts, at feasible impulses and the velocities they produce
+///     void keep(), exchangeKept()             copies the impulses; goes to those kept, and keeps those left: only for keepIfBest() and what uses it
 ///
 /// The increments of a sweep cost nothing and estimate the residual; only when they promise convergence the certificate is evaluated, and only
 /// the certificate ends the loop. Every sweep ends at a feasible point, because each visit does.
@@ -29,11 +30,11 @@ public:
 	}
 
 	/// One sweep. True when it is the last one: the certificate is met, or the iterate is not finite (then residual() is not, either).
-	/// @param mayExtrapolate  whether the next one may start elsewhere than where this one ends
-	bool advance(bool mayExtrapolate)
+	bool advance()
 	{
 		const SweepNorms norms = op.sweep(extrapolation);
 		++count;
+		relative2 = norms.increment2 / norms.impulse2;
 		// A NaN stays one in this order of the arguments.
 		const double increment = std::sqrt(std::max(norms.increment2, 0.0)), impulse = std::sqrt(std::max(norms.impulse2, 0.0));
 		if (!std::isfinite(increment) || !std::isfinite(impulse)) {
@@ -50,7 +51,6 @@ public:
 		} else if (count % mendEvery == 0)
 			op.mend();
 		if (accelerated) extrapolation = accelerator.next(norms.increment2, promise * promise * norms.impulse2);
-		if (!mayExtrapolate) extrapolation = {};
 		return false;
 	}
 
@@ -61,6 +61,37 @@ public:
 		return last = op.certificate();
 	}
 
+	/// Keeps the point after the last sweep when its increments are a tenth smaller than those of the one kept, or the first.
+	void keepIfBest()
+	{
+		if (!(relative2 < 0.8 * kept2)) return;
+		op.keep();
+		kept2 = relative2;
+	}
+
+	/// Goes on plainly, from the point kept if its increments are the smaller ones.
+	void endPlainly()
+	{
+		accelerated = false;
+		extrapolation = {};
+		if (!(kept2 < relative2)) return;
+		op.exchangeKept();
+		op.keep(); // it stays the best one
+	}
+
+	/// Residual of the better one of the present point and the one kept, where the operator is then.
+	double certifyBest()
+	{
+		const double here = certify();
+		if (!(kept2 < relative2)) return here;
+		op.exchangeKept();
+		if (certify() > here) {
+			op.exchangeKept();
+			certify();
+		}
+		return last;
+	}
+
 	double residual() const { return last; } ///< of the last certificate, or not finite
 	int sweeps() const { return count; }
 	bool hasStalled() const { return accelerator.hasStalled(); }
@@ -69,10 +100,11 @@ private:
 	static constexpr int mendEvery = 8; // sweeps; a look at a sleeper costs about a quarter of a visit
 	Operator& op;
 	const double tolerance;
-	const bool accelerated;
+	bool accelerated;
 	double promise; // of the increments, relative
 	int count = 0;
 	double last = 0;
+	double relative2 = 0, kept2 = std::numeric_limits<double>::infinity(); // increments of the last sweep, and of the one kept
 	Accelerator accelerator;
 	Extrapolation extrapolation;
 };

@@ -3,7 +3,6 @@
 #include "IndependentResidual.hpp"
 #include "Scenes.hpp"
 #include "pkg/solver/GrainOperator.hpp"
-#include "pkg/solver/SignoriniCoulombLoop.hpp"
 
 #include <gtest/gtest.h>
 
@@ -83,4 +82,47 @@ TEST(Certificate, IsTheSameInAnyUnits)
 				for (Contact& c : problem.contacts) c.gapVelocity *= speed;
 				expectIndependentResidual(problem, sweeps);
 			}
+}
+
+/// Also where contacts that carried something at the point kept sleep at the other one: letIdleSleep() comes in between, at 8, 16 and 32 sweeps.
+TEST(Certificate, IsThatOfThePointKept)
+{
+	for (const bool field : {false, true})
+		for (const bool general : {false, true}) {
+			GrainProblem problem = scenes::heap(6, 5, 0.6, true, general);
+			if (field) {
+				problem.meanField.emplace();
+				problem.meanField->inverseMass.setConstant(1e-3);
+			}
+			const GrainProblem free = problem;
+			Crew crew(1);
+			GrainOperator grains;
+			grains.start(problem, true, crew);
+			const auto sweepAndMend = [&](int times) {
+				for (int i = 0; i < times; ++i) {
+					grains.sweep(i % 3 ? Extrapolation{0.3, 0.2} : Extrapolation{});
+					grains.mend();
+				}
+			};
+			sweepAndMend(3);
+			const double early = grains.certificate();
+			grains.keep();
+			sweepAndMend(40);
+			const double late = grains.certificate();
+			ASSERT_LT(late, 0.5 * early);
+			// The velocities are sums in another order: as above.
+			grains.exchangeKept();
+			EXPECT_NEAR(grains.certificate(), early, 1e-9 * early);
+			grains.exchangeKept();
+			EXPECT_NEAR(grains.certificate(), late, 1e-9 * late);
+			// It goes on from there as from any other point.
+			grains.exchangeKept();
+			sweepAndMend(40);
+			EXPECT_LT(grains.certificate(), 0.5 * early);
+			grains.exchangeKept();
+			EXPECT_NEAR(grains.certificate(), late, 1e-9 * late);
+			SolveReport report;
+			grains.finish(report);
+			EXPECT_NEAR(independent::residual(free, problem), late, 1e-9 * late);
+		}
 }

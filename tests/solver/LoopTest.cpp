@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // When the loop begins a rival, what that costs at most, how it ends, and when the accelerator stalls: on operators whose increments are written out.
-#include "pkg/solver/SignoriniCoulombLoop.hpp"
+#include "pkg/solver/GuardedLoop.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,6 @@ constexpr int firstStall = 122; // the sweep that sets the mark, 120 that do not
 /// Sweeps whose increments stay as they are until one of them meets the tolerance.
 struct Scripted {
 	static constexpr bool startsPlainly = false;
-	static constexpr int plainEnd = 32;
 	int firstCheck = 0;
 	int solvedAfter = never; // sweeps
 	double unsolved = 1;	 // residual as long as it is not solved
@@ -29,6 +28,8 @@ struct Scripted {
 
 	bool anyAwake() const { return awake; }
 	bool mend() const { return false; }
+	void keep() {}
+	void exchangeKept() {}
 	double certificate()
 	{
 		++certificates;
@@ -49,7 +50,7 @@ Scripted solvedAfter(int sweeps)
 }
 
 struct Solve {
-	LoopResult result;
+	GuardedResult result;
 	int begun; // sweeps of the operator when the rival began; never: it did not
 	std::vector<Extrapolation> startsOfRival;
 };
@@ -59,10 +60,10 @@ Solve solve(Scripted op, Scripted rival, int lead, int maxIterations = 100000)
 	SolverOptions options;
 	options.maxIterations = maxIterations;
 	Solve made{{}, never, {}};
-	made.result = signoriniCoulombLoop(op, options, lead, [&] {
+	made.result = guardedLoop(op, options, lead, [&]() -> Scripted& {
 		EXPECT_EQ(made.begun, never) << "a second rival";
 		made.begun = op.sweeps;
-		return &rival;
+		return rival;
 	});
 	made.startsOfRival = rival.starts;
 	return made;
@@ -93,9 +94,9 @@ TEST(Loop, PlainWithoutAcceleration)
 	SolverOptions plain;
 	plain.acceleration = Acceleration::none;
 	bool begun = false;
-	signoriniCoulombLoop(op, plain, 0, [&] {
+	guardedLoop(op, plain, 0, [&]() -> Scripted& {
 		begun = true;
-		return &rival;
+		return rival;
 	});
 	EXPECT_FALSE(begun);
 	for (const Extrapolation& from : op.starts) EXPECT_TRUE(isPlain(from));
@@ -127,10 +128,11 @@ TEST(Loop, MomentumGoesOnBesideTheRival)
 TEST(Loop, EndsPlainly)
 {
 	for (const int most : {1000, 100}) {
-		Scripted op;
+		Scripted op, rival;
 		SolverOptions options;
 		options.maxIterations = most;
-		EXPECT_EQ(signoriniCoulombLoop(op, options).iterations, most);
+		EXPECT_EQ(guardedLoop(op, options, never, [&]() -> Scripted& { return rival; }).iterations, most);
+		EXPECT_EQ(rival.sweeps, 0);
 		const int plain = std::min(32, most / 8);
 		ASSERT_EQ(op.starts.size(), std::size_t(most));
 		for (int i = most - plain; i < most; ++i) EXPECT_TRUE(isPlain(op.starts[i])) << i;
@@ -143,12 +145,82 @@ TEST(Loop, ReturnsTheBetterPoint)
 	Scripted good, bad;
 	good.unsolved = 2e-4;
 	bad.unsolved = 3e-4;
-	const LoopResult byRival = solve(bad, good, 0, 500).result, byOwn = solve(good, bad, 0, 500).result;
+	const GuardedResult byRival = solve(bad, good, 0, 500).result, byOwn = solve(good, bad, 0, 500).result;
 	EXPECT_TRUE(byRival.byRival);
 	EXPECT_FALSE(byOwn.byRival);
 	EXPECT_EQ(byRival.residual, 2e-4);
 	EXPECT_EQ(byOwn.residual, 2e-4);
 	EXPECT_EQ(byOwn.iterations, 500);
+}
+
+/// Increments fall until sweep `best` and grow again; the point of a sweep is its increment.
+struct Wandering : Scripted {
+	int best = 700;
+	bool misleads = false; // large increments are the good points
+	double point = 0, kept = 0;
+	std::vector<double> pointsAtExchange = {};
+	SweepNorms sweep(Extrapolation from)
+	{
+		Scripted::sweep(from);
+		point = 1 + 0.01 * std::abs(sweeps - best);
+		return {point * point, 1};
+	}
+	double certificate() const { return misleads ? 1 / point : point; }
+	void keep() { kept = point; }
+	void exchangeKept()
+	{
+		pointsAtExchange.push_back(point);
+		std::swap(point, kept);
+	}
+};
+
+TEST(Loop, TakesUpTheBestPointAndReturnsItWhereTheSweepsRunOut)
+{
+	for (const int best : {600, 700, 900}) {
+		Wandering op, rival;
+		op.best = best;
+		const GuardedResult result = guardedLoop(op, {}, never, [&]() -> Wandering& { return rival; });
+		EXPECT_EQ(result.iterations, 1000);
+		EXPECT_EQ(result.residual, op.point);
+		EXPECT_GE(result.residual, 1);
+		EXPECT_LE(result.residual, 1 / std::sqrt(0.8)); // a point is kept where it is better by that, no sooner
+		ASSERT_EQ(op.pointsAtExchange.size(), 2u);
+		EXPECT_EQ(op.pointsAtExchange[0], 1 + 0.01 * std::abs(968 - best)); // before the plain end
+		EXPECT_EQ(op.pointsAtExchange[1], 1 + 0.01 * std::abs(1000 - best));
+	}
+}
+
+/// The certificate decides, not the increments.
+TEST(Loop, ReturnsThePointWithTheBetterCertificate)
+{
+	Wandering op, rival;
+	op.misleads = true;
+	const GuardedResult result = guardedLoop(op, {}, never, [&]() -> Wandering& { return rival; });
+	EXPECT_EQ(op.point, 1 + 0.01 * std::abs(1000 - op.best));
+	EXPECT_EQ(result.residual, 1 / op.point);
+}
+
+/// A rival has its best point, too.
+TEST(Loop, ReturnsTheBestPointOfTheRival)
+{
+	Wandering op, rival;
+	op.best = 4000; // at 4000 - sweeps of 100 or more
+	rival.best = 400;
+	const GuardedResult result = guardedLoop(op, {}, 0, [&]() -> Wandering& { return rival; });
+	EXPECT_TRUE(result.byRival);
+	EXPECT_EQ(result.residual, rival.point);
+	EXPECT_LE(result.residual, 1 / std::sqrt(0.8));
+}
+
+TEST(Loop, KeepsNothingWithoutAcceleration)
+{
+	Wandering op, rival;
+	SolverOptions plain;
+	plain.acceleration = Acceleration::none;
+	const GuardedResult result = guardedLoop(op, plain, 0, [&]() -> Wandering& { return rival; });
+	EXPECT_TRUE(op.pointsAtExchange.empty());
+	EXPECT_EQ(op.kept, 0);
+	EXPECT_EQ(result.residual, 1 + 0.01 * std::abs(1000 - op.best)); // the last one, as Gauss-Seidel leaves it
 }
 
 /// Increments may promise what the certificate does not hold. Only the certificate ends the loop, but it is believed less often: where it is 1e4
