@@ -27,8 +27,7 @@ struct GuardedResult : LoopResult {
 ///
 /// @param lead       sweeps before a rival begins
 /// @param makeRival  called once at most: a second operator, started on the same problem
-template <class Operator, class MakeRival>
-GuardedResult guardedLoop(Operator& op, const SolverOptions& options, int lead, const MakeRival& makeRival)
+template <class Operator, class MakeRival> GuardedResult guardedLoop(Operator& op, const SolverOptions& options, int lead, const MakeRival& makeRival)
 {
 	if (options.acceleration == Acceleration::none || options.maxIterations == 0 || !op.anyAwake()) return {signoriniCoulombLoop(op, options), false};
 	const int most = options.maxIterations, lastWithMomentum = most - std::min(32, most / 8);
