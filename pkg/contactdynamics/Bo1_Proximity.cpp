@@ -14,9 +14,17 @@ void Bo1_Proximity::delegateTo(const char* stockFunctor)
 	stock = boost::dynamic_pointer_cast<BoundFunctor>(ClassFactory::instance().createShared(stockFunctor));
 }
 
+/// YADE calls us from several threads at once, and tells us of the scene, but not the functor we hold: one of them writes, before any of them reads.
+void Bo1_Proximity::showSceneToStock()
+{
+	if (__atomic_load_n(&stock->scene, __ATOMIC_ACQUIRE) == scene) return;
+	const std::lock_guard<std::mutex> lock(showing);
+	if (__atomic_load_n(&stock->scene, __ATOMIC_RELAXED) != scene) __atomic_store_n(&stock->scene, scene, __ATOMIC_RELEASE);
+}
+
 void Bo1_Proximity::bound(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* body)
 {
-	if (stock->scene != scene) stock->scene = scene;
+	showSceneToStock();
 	stock->go(shape, bound, se3, body);
 }
 
@@ -26,7 +34,7 @@ void Bo1_Proximity::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound,
 	// the engine names the body in the same step.
 	if (!se3.position.allFinite()) return;
 	this->bound(shape, bound, se3, body);
-	Vector3r margin = Vector3r::Constant(Reach::ofBody(*scene, body->getId()));
+	Vector3r margin = Vector3r::Constant(Reach::ofBound(*scene, body->getId()));
 	if (scene->isPeriodic && scene->cell->hasShear()) {
 		// Bounds live in the unsheared cell, where a length may look longer by the inverse cosine of the skew angles.
 		const Vector3r& cosine = scene->cell->getCos();

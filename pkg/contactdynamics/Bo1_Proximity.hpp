@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <core/Dispatching.hpp>
+#include <mutex>
 
 namespace yade {
 
@@ -18,7 +19,9 @@ protected:
 	virtual void bound(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* body);
 
 private:
+	void showSceneToStock();
 	shared_ptr<BoundFunctor> stock;
+	std::mutex showing;
 };
 
 } // namespace yade

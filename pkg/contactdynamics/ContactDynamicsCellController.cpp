@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsCellController.hpp"
 #include "AdmittedValues.hpp"
+#include "BodySize.hpp"
 #include "ContactEnergy.hpp"
 #include "MovableBodies.hpp"
 #include "RefuseAttribute.hpp"
 #include <core/Cell.hpp>
 #include <core/EnergyTracker.hpp>
 #include <core/Scene.hpp>
-#include <pkg/common/Sphere.hpp>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -47,9 +47,9 @@ void ContactDynamicsCellController::requireAdmissible() const
 
 void ContactDynamicsCellController::postLoad(ContactDynamicsCellController&)
 {
-	const auto [stressBefore, velGradBefore, stressMaskBefore, inertiaBefore, maxStrainRateBefore] = admitted;
+	const Real before = std::get<3>(admitted);
 	admit(attributes(), admitted, [this] { requireAdmissible(); });
-	if (inertia != inertiaBefore) inertiaInUse = 0;
+	if (inertia == 0 && before > 0) inertiaInUse = 0; // to be taken from the bodies again; what a scene was saved with is kept
 }
 
 void ContactDynamicsCellController::action()
@@ -141,12 +141,14 @@ void ContactDynamicsCellController::requireRoom(const Scene& scene, const Matrix
 		const Vector3r normal = hSize.col((axis + 1) % 3).cross(hSize.col((axis + 2) % 3)).normalized();
 		const Real width = std::abs(normal.dot(hSize.col(axis)));
 		for (const auto& body : *scene.bodies) {
-			const auto* sphere = body && (body->isDynamic() || body->isClumpMember()) ? dynamic_cast<const Sphere*>(body->shape.get()) : nullptr;
-			if (!sphere || 4 * sphere->radius < width) continue;
+			if (!(body->isDynamic() || body->isClumpMember())) continue;
+			const Real extent = extentAlong(*body, normal);
+			if (2 * extent < width) continue;
 			std::ostringstream message;
-			message << "ContactDynamicsCellController: sphere #" << body->getId() << " has the diameter " << 2 * sphere->radius
-					<< ", and with this step the periodic cell would be " << width << " wide across its edge " << axis
-					<< "; it must be more than two diameters, because YADE knows one contact of two bodies only, and none of a body with itself. "
+			message << "ContactDynamicsCellController: body #" << body->getId() << " (" << body->shape->getClassName() << ") is " << extent
+					<< " wide, and with this step the periodic cell would be " << width << " wide across its edge " << axis
+					<< "; it must be more than twice as wide as a body, because YADE knows one contact of two bodies only, and none of a body with "
+					   "itself. "
 					   "Use more bodies, or stop compressing the cell.";
 			throw std::runtime_error(message.str());
 		}

@@ -10,6 +10,7 @@
 #include "Reach.hpp"
 #include "RefuseAttribute.hpp"
 #include "StockControllers.hpp"
+#include <core/BodyContainer.hpp>
 #include <core/Scene.hpp>
 #include <core/Timing.hpp>
 #include <cmath>
@@ -63,6 +64,8 @@ void ContactDynamicsEngine::action()
 	timingDeltas->checkpoint("apply");
 	repair();
 	timingDeltas->checkpoint("repair");
+	// The engines may be replaced before the next step, see Plugin.cpp; a collider that knows all bodies passes by at no cost.
+	scene->bodies->checkedByCollider = false;
 }
 
 void ContactDynamicsEngine::collect()

@@ -23,7 +23,7 @@ void ContactDynamicsPhys::requireUsable(const std::function<void(const char*, Re
 		if (!(value >= 0 && std::isfinite(value))) refuse(name, value, "it must be finite and not negative");
 	if (normalRestitution > 1 || tangentialRestitution > 1)
 		refuse("ContactDynamicsPhys restitution", std::max(normalRestitution, tangentialRestitution), "it must lie in [0, 1]");
-	if (cohesionShear > 0 && !(tangensOfFrictionAngle > 0 || staticFriction > 0))
+	if (cohesionShear > 0 && !(tangensOfFrictionAngle > 0))
 		refuse("ContactDynamicsPhys.tangensOfFrictionAngle", tangensOfFrictionAngle, "with cohesionShear it must be above 0");
 }
 

@@ -251,6 +251,8 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 		contact.arm2 = Vector3r::Zero();
 	}
 
+	contact.imageVelocity += beltVelocity(view2, link.arm2, contact.normal) - beltVelocity(view1, link.arm1, contact.normal);
+
 	link.swapped = (link.point >= 0 || (view1.radius > 0 && view2.radius > 0)) && link.id1 > link.id2;
 	if (link.swapped) {
 		std::swap(contact.body1, contact.body2);
@@ -260,6 +262,15 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 	}
 	contact.friction = link.phys->tangensOfFrictionAngle;
 	link.solved = link.solved && contact.body1 != contact.body2 && !(view1.fixed && view2.fixed);
+}
+
+/// A body outside NewtonIntegrator.mask stays where it is, whatever its velocity says; along its surface that velocity acts, as that of a conveyor
+/// belt.
+Vector3r ContactDynamicsStep::beltVelocity(const BodyView& view, const Vector3r& arm, const Vector3r& normal) const
+{
+	if (motions[view.index].moved) return Vector3r::Zero();
+	const Vector3r velocity = view.state->vel + view.state->angVel.cross(arm);
+	return velocity - velocity.dot(normal) * normal;
 }
 
 void ContactDynamicsStep::requireUsable(const Link& link, const contactdynamics::Contact& contact) const
@@ -362,6 +373,7 @@ void ContactDynamicsStep::leaveOut(Link& link)
 	link.phys->shearForce = Vector3r::Zero();
 	link.phys->localVelocity = Vector3r::Zero();
 	link.phys->pseudoImpulse = 0;
+	link.phys->stretch = link.phys->stretchRate = link.phys->torqueImpulse = Vector3r::Zero();
 }
 
 void ContactDynamicsStep::writeBack(const Link& link, const contactdynamics::Contact& contact) const

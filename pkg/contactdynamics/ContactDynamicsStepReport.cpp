@@ -78,6 +78,7 @@ void ContactDynamicsStep::trackEnergy(Scene& scene)
 		const Vector3r start = velocityAtStart(contact);
 		energy.add(*links[i].phys, contact.normal, contact.impulse, start, contact.relativeVelocity,
 				   links[i].gap + 0.5 * h * contact.normal.dot(contact.relativeVelocity), shifted.isImpact(static_cast<int>(i)), bonded[i]);
+		energy.addStretch(*links[i].phys, h);
 	}
 	for (const RollingFriction::Row& row : rolling.all()) {
 		const int one = problem.contacts[row.contact].body1, two = problem.contacts[row.contact].body2;

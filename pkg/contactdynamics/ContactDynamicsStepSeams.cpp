@@ -85,11 +85,11 @@ void ContactDynamicsStep::settleSurfaceSeams(const Scene& scene)
 			if (contact.role != SurfaceContact::Role::replaced) continue;
 			// As if the surface were its tangent plane.
 			if (sphereIsFirst(link))
-				updateScGeom(*link.interaction,
-							 {sphere.state->pos - sphere.radius * contact.normal, -contact.normal, contact.gap, sphere.radius, sphere.radius});
+				placeScGeom(*link.interaction,
+							{sphere.state->pos - sphere.radius * contact.normal, -contact.normal, contact.gap, sphere.radius, sphere.radius});
 			else
-				updateScGeom(*link.interaction, {sphere.state->pos + shiftOfImage(*link.interaction) - (sphere.radius + contact.gap) * contact.normal,
-												 contact.normal, contact.gap, sphere.radius, sphere.radius});
+				placeScGeom(*link.interaction, {sphere.state->pos + shiftOfImage(*link.interaction) - (sphere.radius + contact.gap) * contact.normal,
+												contact.normal, contact.gap, sphere.radius, sphere.radius});
 		}
 	});
 }

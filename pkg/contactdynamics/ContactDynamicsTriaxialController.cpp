@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsTriaxialController.hpp"
 #include "AdmittedValues.hpp"
+#include "Gravity.hpp"
 #include "MovableBodies.hpp"
 #include "RefuseAttribute.hpp"
 #include <core/Interaction.hpp>
@@ -8,7 +9,6 @@
 #include <pkg/common/Box.hpp>
 #include <pkg/common/NormShearPhys.hpp>
 #include <pkg/common/Wall.hpp>
-#include <pkg/dem/NewtonIntegrator.hpp>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -50,13 +50,15 @@ void ContactDynamicsTriaxialController::requireAdmissible() const
 	if (!(wallMass >= 0 && std::isfinite(wallMass)))
 		refuseAttribute("ContactDynamicsTriaxialController.wallMass", wallMass, "it must be finite and not negative (0: from the bodies)");
 	if (!(maxStrainRate > 0)) refuseAttribute("ContactDynamicsTriaxialController.maxStrainRate", maxStrainRate, "it must be positive");
+	if (!(referenceSize.allFinite() && (referenceSize.minCoeff() > 0 || referenceSize == Vector3r::Zero())))
+		refuseAttribute("ContactDynamicsTriaxialController.referenceSize", referenceSize.transpose(), "all must be positive and finite, or all 0");
 }
 
 void ContactDynamicsTriaxialController::postLoad(ContactDynamicsTriaxialController&)
 {
-	const auto [wallsBefore, stressBefore, strainRateBefore, stressMaskBefore, wallMassBefore, maxStrainRateBefore] = admitted;
+	const Real before = std::get<4>(admitted);
 	admit(attributes(), admitted, [this] { requireAdmissible(); });
-	if (wallMass != wallMassBefore) wallMassInUse = 0;
+	if (wallMass == 0 && before > 0) wallMassInUse = 0; // to be taken from the bodies again; what a scene was saved with is kept
 }
 
 const Body& ContactDynamicsTriaxialController::wall(const Scene& ofScene, int place) const
@@ -103,18 +105,18 @@ std::vector<ContactDynamicsTriaxialController::Outlook> ContactDynamicsTriaxialC
 	} catch (const std::runtime_error&) {
 		return {};
 	}
-	std::vector<Outlook> walls;
+	std::vector<Outlook> coming;
 	for (int axis = 0; axis < 3; axis++) {
 		const Body& body = wall(ofScene, 2 * axis + 1);
 		if (!(stressMask & (1 << axis))) {
-			walls.push_back({body.getId(), std::abs(strainRate[axis]) * edges[axis], 0});
+			coming.push_back({body.getId(), std::abs(strainRate[axis]) * edges[axis], 0});
 			continue;
 		}
 		const Real push = -stress[axis] * edges[(axis + 1) % 3] * edges[(axis + 2) % 3], speed = std::abs(body.state->vel[axis]);
 		const Real faster = speed + ofScene.dt * std::abs(push - resistance(body, axis)) / mass;
-		walls.push_back({body.getId(), std::max(speed, std::min(faster, maxStrainRate * edges[axis])), push / mass});
+		coming.push_back({body.getId(), std::max(speed, std::min(faster, maxStrainRate * edges[axis])), push / mass});
 	}
-	return walls;
+	return coming;
 }
 
 /// What the grains pushed it with in the last step, along the axis [N].
@@ -148,11 +150,8 @@ void ContactDynamicsTriaxialController::press(int axis, Real area)
 	// Without the resistance a light wall would never be pressed with more than its own mass can take in a step, however slowly it moves. Twice:
 	// then the force grows to the goal within a few steps, and what grains that settle take off for a moment does not weaken the next step.
 	const Real force = std::max(stress[axis] * area, wallMassInUse * (-fastest - state.vel[axis]) / h - 2 * resistance(body, axis));
-	Real gravity = 0;
-	for (const auto& engine : scene->engines)
-		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get()); newton && !newton->dead) gravity = newton->gravity[axis];
 	Vector3r total = Vector3r::Zero();
-	total[axis] = force - wallMassInUse * gravity;
+	total[axis] = force - wallMassInUse * gravityOf(*scene)[axis];
 	scene->forces.addForce(body.getId(), total);
 }
 

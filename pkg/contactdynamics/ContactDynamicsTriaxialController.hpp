@@ -48,16 +48,16 @@ public:
 		((Real,maxStrainRate,std::numeric_limits<Real>::infinity(),Attr::triggerPostLoad,"Largest rate, in magnitude, to which the force accelerates a wall under stress, over the length of the box [1/s], > 0: a loose packing is compressed at this rate, with less than the goal. The force is at most what leads to this rate against twice the force that the grains pushed back with in the last step; if they give way all at once, the wall exceeds the bound for a step. Default: infinite."))
 		((Real,wallMassInUse,0,Attr::readonly,"Mass of each moving wall in the last step [kg]; 0 before the first."))
 		((Vector3r,size,Vector3r::Zero(),Attr::readonly,"Edges of the box between the inner faces of the walls, at the start of the last step [m]."))
-		((Vector3r,referenceSize,Vector3r::Zero(),,"Edges from which strain is measured [m]; 0 (default): taken in the next step."))
+		((Vector3r,referenceSize,Vector3r::Zero(),Attr::triggerPostLoad,"Edges from which strain is measured [m], > 0; all 0 (default): taken in the next step. Otherwise ValueError."))
 		((Vector3r,strain,Vector3r::Zero(),Attr::readonly,"Logarithmic strain ln(size/referenceSize) along the axes, at the start of the last step [-], positive in extension."))
 	);
 	// clang-format on
 private:
-	std::tuple<vector<int>&, Vector3r&, Vector3r&, int&, Real&, Real&> attributes()
+	std::tuple<vector<int>&, Vector3r&, Vector3r&, int&, Real&, Real&, Vector3r&> attributes()
 	{
-		return {walls, stress, strainRate, stressMask, wallMass, maxStrainRate};
+		return {walls, stress, strainRate, stressMask, wallMass, maxStrainRate, referenceSize};
 	}
-	std::tuple<vector<int>, Vector3r, Vector3r, int, Real, Real> admitted{attributes()};
+	std::tuple<vector<int>, Vector3r, Vector3r, int, Real, Real, Vector3r> admitted{attributes()};
 };
 REGISTER_SERIALIZABLE(ContactDynamicsTriaxialController);
 

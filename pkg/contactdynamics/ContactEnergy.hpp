@@ -17,6 +17,7 @@ public:
 	/// @param bonded      whether the contact was cohesive when the step began
 	void add(const ContactDynamicsPhys& phys, const Vector3r& normal, const Vector3r& impulse, const Vector3r& start, const Vector3r& end, Real gap,
 			 bool impact, bool bonded);
+	/// Of the tangential spring, stretch and its rate as they are after the step.
 	void addStretch(const ContactDynamicsPhys& phys, Real timeStep);
 	/// @param torque  impulse on body 2 [N m s];  @param spin  mean relative angular velocity [rad/s]
 	void addRolling(const Vector3r& torque, const Vector3r& spin) { rolling -= torque.dot(spin); }

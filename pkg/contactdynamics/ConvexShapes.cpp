@@ -103,13 +103,4 @@ const contactdynamics::ConvexShape& ConvexShapes::of(const shared_ptr<Shape>& sh
 	return *entry.shape;
 }
 
-Real polyhedronRadius(const Shape& shape)
-{
-	const auto* polyhedra = dynamic_cast<const Polyhedra*>(&shape);
-	if (!polyhedra) return 0;
-	Real squared = 0;
-	for (const Vector3r& vertex : polyhedra->v) squared = std::max(squared, vertex.squaredNorm());
-	return std::sqrt(squared);
-}
-
 } // namespace yade

@@ -12,7 +12,4 @@ namespace ConvexShapes {
 const contactdynamics::ConvexShape& of(const shared_ptr<Shape>& shape);
 } // namespace ConvexShapes
 
-/// Largest distance of a vertex of a Polyhedra from the body's position [m]; 0 for any other shape.
-Real polyhedronRadius(const Shape& shape);
-
 } // namespace yade

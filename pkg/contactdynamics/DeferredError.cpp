@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "DeferredError.hpp"
+#include <core/Omega.hpp>
+#include <core/Scene.hpp>
+#include <boost/weak_ptr.hpp>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -8,8 +11,13 @@
 namespace yade {
 namespace {
 struct Report {
+	boost::weak_ptr<Scene> owner; // another scene may have the address of one that is gone
+	long iter;
 	std::pair<int, int> ids;
 	std::string message;
+
+	/// A report of which no engine asked remains until then.
+	bool isOf(const Scene& scene) const { return owner.lock().get() == &scene && iter == scene.iter; }
 };
 std::mutex reportsGuard;
 std::map<const Scene*, Report> reports; // almost always empty
@@ -20,10 +28,8 @@ void DeferredError::report(const Scene* scene, int id1, int id2, const std::stri
 	const std::lock_guard<std::mutex> lock(reportsGuard);
 	const std::pair<int, int> ids(id1, id2);
 	const auto known = reports.find(scene);
-	if (known == reports.end())
-		reports[scene] = {ids, message};
-	else if (ids < known->second.ids)
-		known->second = {ids, message};
+	if (known == reports.end() || !known->second.isOf(*scene) || ids < known->second.ids)
+		reports[scene] = {Omega::instance().getScene(), scene->iter, ids, message};
 }
 
 void DeferredError::raise(const Scene* scene)
@@ -31,9 +37,9 @@ void DeferredError::raise(const Scene* scene)
 	const std::lock_guard<std::mutex> lock(reportsGuard);
 	const auto known = reports.find(scene);
 	if (known == reports.end()) return;
-	const std::string message = known->second.message;
+	const Report report = known->second;
 	reports.erase(known);
-	throw std::runtime_error(message);
+	if (report.isOf(*scene)) throw std::runtime_error(report.message);
 }
 
 } // namespace yade

@@ -11,7 +11,7 @@ class Scene;
 namespace DeferredError {
 /// Keep `message` for `scene`; of several reports in a step the one with the smallest (id1, id2) is kept, so that the thread count does not choose.
 void report(const Scene* scene, int id1, int id2, const std::string& message);
-/// Throw std::runtime_error with the kept message of `scene` and forget it; nothing happens when there is none.
+/// Throw std::runtime_error with the message kept in this step of `scene` and forget it; nothing happens when there is none.
 void raise(const Scene* scene);
 } // namespace DeferredError
 

@@ -6,7 +6,9 @@
 #include <core/InteractionLoop.hpp>
 #include <core/PartialEngine.hpp>
 #include <core/Scene.hpp>
+#include <core/TimeStepper.hpp>
 #include <pkg/common/Collider.hpp>
+#include <pkg/common/CombinedKinematicEngine.hpp>
 #include <pkg/common/FieldApplier.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <algorithm>
@@ -24,6 +26,14 @@ bool actsOnBodies(const Engine& engine)
 {
 	if (dynamic_cast<const NewtonIntegrator*>(&engine)) return false;
 	return dynamic_cast<const PartialEngine*>(&engine) || dynamic_cast<const FieldApplier*>(&engine);
+}
+
+/// ServoPIDController, also where it is one of several motions that are added up.
+bool followsForces(const Engine& engine)
+{
+	if (const auto* combined = dynamic_cast<const CombinedKinematicEngine*>(&engine))
+		return std::any_of(combined->comb.begin(), combined->comb.end(), [](const auto& one) { return one && followsForces(*one); });
+	return engine.getClassName() == "ServoPIDController";
 }
 
 /// With no law but soft ones, YADE would take theirs, which drops the contacts as long as there is a gap.
@@ -50,17 +60,21 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 		const std::string name = other->getClassName();
 		require(name != engine.getClassName(),
 				"there are two of them in O.engines; one engine solves all contacts of the scene. Remove one or set it dead.");
-		require(name != "GlobalStiffnessTimeStepper", "GlobalStiffnessTimeStepper stands in O.engines, but rigid contacts have no stiffness to take "
-													  "a time step from. Remove it and set O.dt.");
+		const auto* stepper = dynamic_cast<const TimeStepper*>(other.get());
+		require(name != "GlobalStiffnessTimeStepper" || !stepper || !stepper->active,
+				"GlobalStiffnessTimeStepper stands in O.engines, but rigid contacts have no stiffness to take a time step from. Remove it, or set "
+				"active=False, and set O.dt.");
 		if (passed && !newtonBehind && intruder.empty() && actsOnBodies(*other)) intruder = name;
-		require(name != "ServoPIDController" || passed || !resetBefore, "ServoPIDController stands behind ForceResetter and before this engine in "
-																		"O.engines, where there are no contact forces yet that it could follow. "
-																		"Put it behind NewtonIntegrator.");
+		require(!followsForces(*other) || passed || !resetBefore,
+				"ServoPIDController stands behind ForceResetter and before this engine in O.engines, where there are no contact forces yet that it "
+				"could "
+				"follow. Put it" +
+						std::string(name == "ServoPIDController" ? "" : ", with the " + name + " it is part of,") + " behind NewtonIntegrator.");
 		if (name == "ForceResetter") resetBefore |= !passed;
 		collides |= dynamic_cast<const Collider*>(other.get()) != nullptr;
 		if (const auto* loop = dynamic_cast<const InteractionLoop*>(other.get())) {
 			loopBefore |= !passed;
-			lawBefore |= hasLawForUs(*loop);
+			lawBefore |= !passed && hasLawForUs(*loop);
 		}
 		require(name != "ContactDynamicsTriaxialController" || !passed,
 				"ContactDynamicsTriaxialController stands behind this engine in O.engines, so the contacts would not feel its walls; put it before.");
@@ -84,7 +98,7 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 			"InsertionSortCollider between ForceResetter and InteractionLoop.");
 	require(loopBefore,
 			"no InteractionLoop stands before this engine in O.engines, so there are no contacts to solve; put it between collider and engine.");
-	require(lawBefore, "no InteractionLoop in O.engines has a law for ContactDynamicsPhys, so contacts would be lost; give it "
+	require(lawBefore, "no InteractionLoop before this engine in O.engines has a law for ContactDynamicsPhys, so contacts would be lost; give it "
 					   "Law2_ScGeom_ContactDynamicsPhys_SignoriniCoulomb().");
 	std::ostringstream gravity, damping;
 	gravity << newton->gravity.transpose();

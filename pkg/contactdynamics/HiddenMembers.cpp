@@ -98,7 +98,7 @@ bool leadsTo(const char* className, const void* object)
 	const std::unique_ptr<Factorable> other(ClassFactory::instance().createPure(className));
 	const auto found = safelyRead<const void*>(object);
 	const auto expected = safelyRead<const void*>(dynamic_cast<const void*>(other.get()));
-	return found && *found == *expected;
+	return found && expected && *found == *expected;
 }
 
 void compareScene(Comparison& compare)

@@ -20,7 +20,8 @@ bool Ig2_Facet_Sphere_ScGeom_Proximity::go(const shared_ptr<Shape>& shape1, cons
 	if (beyondReach(*scene, *interaction, gap, force) || lacksMaterial(*scene, *interaction)) return false;
 	// A centre that lies in the facet has two normals; the facet's own is taken.
 	const Vector3r normal = distance > 0 ? Vector3r((centre - onFacet) / distance) : facet.normal;
-	return updateScGeom(*interaction, {state1.pos + state1.ori * onFacet, state1.ori * normal, gap, radius, radius});
+	return updateScGeom(*scene, interaction, state1, state2, shift2,
+						{state1.pos + state1.ori * onFacet, state1.ori * normal, gap, 2 * radius, radius});
 }
 
 } // namespace yade

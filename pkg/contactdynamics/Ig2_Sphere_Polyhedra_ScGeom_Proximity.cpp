@@ -22,7 +22,7 @@ bool Ig2_Sphere_Polyhedra_ScGeom_Proximity::go(const shared_ptr<Shape>& shape1, 
 	const contactdynamics::SurfacePoint nearest = nearestOnSurface(polyhedron, centre);
 	const Real gap = nearest.distance - radius;
 	if (beyondReach(*scene, *interaction, gap, force) || lacksMaterial(*scene, *interaction)) return false;
-	return updateScGeom(*interaction, {state1.pos - radius * nearest.normal, -nearest.normal, gap, radius, radius});
+	return updateScGeom(*scene, interaction, state1, state2, shift2, {state1.pos - radius * nearest.normal, -nearest.normal, gap, radius, radius});
 }
 
 } // namespace yade

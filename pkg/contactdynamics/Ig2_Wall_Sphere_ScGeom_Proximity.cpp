@@ -23,7 +23,7 @@ bool Ig2_Wall_Sphere_ScGeom_Proximity::go(const shared_ptr<Shape>& shape1, const
 	normal[wall.axis] = side;
 	Vector3r onWall = centre;
 	onWall[wall.axis] = state1.pos[wall.axis];
-	return updateScGeom(*interaction, {onWall, normal, gap, radius, radius});
+	return updateScGeom(*scene, interaction, state1, state2, shift2, {onWall, normal, gap, radius, radius}, true);
 }
 
 } // namespace yade

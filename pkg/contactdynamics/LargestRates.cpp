@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "LargestRates.hpp"
+#include "BodySize.hpp"
 #include "ContactDynamicsCellController.hpp"
 #include "ContactDynamicsTriaxialController.hpp"
+#include "Gravity.hpp"
 #include <core/Scene.hpp>
-#include <pkg/common/Sphere.hpp>
-#include <pkg/dem/NewtonIntegrator.hpp>
+#include <pkg/common/Box.hpp>
 #include <algorithm>
 #include <cmath>
 
@@ -14,21 +15,24 @@ void raise(Real& largest, Real value)
 {
 	if (std::isfinite(value)) largest = std::max(largest, value);
 }
+
+/// Of a grain, or of a box that can move; other boxes are walls.
+Real blockRadius(const Body& body)
+{
+	const auto* box = body.isDynamic() || body.isClumpMember() ? dynamic_cast<const Box*>(body.shape.get()) : nullptr;
+	return box ? box->extents.norm() : grainRadius(body);
+}
 } // namespace
 
 LargestRates::LargestRates(const Scene& scene)
 {
 	Real gravity = 0;
-	for (const auto& engine : scene.engines) {
-		const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get());
-		if (newton && !newton->dead) raise(gravity, newton->gravity.norm());
-	}
+	raise(gravity, gravityOf(scene).norm());
 	ForceContainer& forces = const_cast<Scene&>(scene).forces; // YADE's getters are not const
 	const bool permForces = forces.getPermForceUsed();
 	for (const auto& body : *scene.bodies) {
 		const State& state = *body->state;
-		if (const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get()))
-			if (sphere->radius > 0) smallestRadius = smallestRadius > 0 ? std::min(smallestRadius, sphere->radius) : sphere->radius;
+		if (const Real radius = blockRadius(*body); radius > 0) smallestRadius = smallestRadius > 0 ? std::min(smallestRadius, radius) : radius;
 		raise(speed, (scene.isPeriodic ? Vector3r(state.vel - scene.cell->velGrad * state.pos) : state.vel).norm());
 		raise(rotation, state.angVel.norm());
 		if (!body->isDynamic() || body->isClumpMember()) continue;

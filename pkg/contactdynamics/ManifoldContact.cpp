@@ -33,6 +33,14 @@ bool nothingMoves(const Scene& scene, const Interaction& interaction)
 	return !moves(interaction.getId1()) && !moves(interaction.getId2());
 }
 
+/// @param force  the pair is made by hand, utils.createInteraction(): velocities may still change before the next step
+Real reachOf(const Scene& scene, const Interaction& interaction, bool force)
+{
+	const Real reach = Reach::ofPair(scene, interaction.getId1(), interaction.getId2());
+	if (force) Reach::forget();
+	return reach;
+}
+
 /// @param origin  what was subtracted from all positions [m]
 bool fill(Interaction& interaction, const contactdynamics::Separation& separation, const std::vector<ManifoldPoint>& points, const Vector3r& origin,
 		  const Vector3r& position1, const Vector3r& position2)
@@ -104,7 +112,7 @@ bool updateManifold(const Scene& scene, Interaction& interaction, const shared_p
 	if (!convex2 || lacksMaterial(scene, interaction)) return false;
 
 	const bool ends = !force && !interaction.isReal(); // only the law ends a contact
-	const Real reach = Reach::ofPair(scene, interaction.getId1(), interaction.getId2());
+	const Real reach = reachOf(scene, interaction, force);
 	// Balls around the two bodies that are apart: most pairs of bounding boxes end here.
 	if (ends && (position2 - state1.pos).norm() > convex1->radius + convex2->radius + reach) return false;
 
@@ -140,7 +148,7 @@ bool updateManifoldOnWall(const Scene& scene, Interaction& interaction, const Wa
 	const Vector3r normal = side * Vector3r::Unit(wall.axis);
 	const auto* convex2 = convexShape(scene, interaction, shape2, interaction.getId2());
 	if (!convex2 || lacksMaterial(scene, interaction)) return false;
-	const Real reach = Reach::ofPair(scene, interaction.getId1(), interaction.getId2()), height = side * distance;
+	const Real reach = reachOf(scene, interaction, force), height = side * distance;
 	const bool ends = !force && !interaction.isReal();
 	if (ends && height > convex2->radius + reach) return false;
 

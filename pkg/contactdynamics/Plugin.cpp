@@ -5,7 +5,9 @@
 
 #include <lib/factory/ClassFactory.hpp>
 #include <lib/serialization/Serializable.hpp>
+#include <core/BodyContainer.hpp>
 #include <core/Omega.hpp>
+#include <core/Scene.hpp>
 
 #include <iterator>
 #include <list>
@@ -42,6 +44,9 @@ public:
 	}
 };
 
+/// Once a body has been erased, a collider that is new in a scene that another one has seen stays without bodies, and they fall through each other.
+void showBodiesToCollider() { Omega::instance().getScene()->bodies->checkedByCollider = false; }
+
 /// Makes the classes of this library part of the running YADE, as if it had been there from the start: they appear in `yade.wrapper`, their base
 /// classes are known, archives can hold them. Returns their names, also if called again.
 ///
@@ -74,5 +79,7 @@ BOOST_PYTHON_MODULE(_plugin)
 	py::scope().attr("__doc__") = "Compiled part of contactdynamics, for contactdynamics._loading.";
 	py::def("compiledLayout", &compiledLayout, "Sizes, offsets and types of members of YADE's classes that this library was compiled with.");
 	py::def("layoutDisagreements", &layoutDisagreements, "Sentences on where a table like that of compiledLayout, and the running YADE, disagree.");
+	py::def("showBodiesToCollider", &showBodiesToCollider,
+			"Lets the next run of a collider, also of a new one, look for bodies that it does not know.");
 	py::def("registerClasses", &registerClasses, "Registers this library's classes with YADE the first time, and returns their names.");
 }

@@ -13,15 +13,26 @@ bool beyondReach(const Scene& scene, const Interaction& interaction, Real gap, b
 	return gap > Reach::ofPair(scene, interaction.getId1(), interaction.getId2());
 }
 
-bool updateScGeom(Interaction& interaction, const Nearest& nearest)
+void placeScGeom(Interaction& interaction, const Nearest& nearest)
 {
-	if (!interaction.geom) interaction.geom = boost::shared_ptr<ScGeom>(new ScGeom);
 	ScGeom& geom = static_cast<ScGeom&>(*interaction.geom);
 	geom.normal = nearest.normal;
 	geom.contactPoint = nearest.point + 0.5 * nearest.gap * nearest.normal;
 	geom.penetrationDepth = -nearest.gap;
 	geom.refR1 = nearest.radius1;
 	geom.refR2 = nearest.radius2;
+}
+
+bool updateScGeom(const Scene& scene, const shared_ptr<Interaction>& interaction, const State& state1, const State& state2, const Vector3r& shift2,
+				  const Nearest& nearest, bool fixedArms)
+{
+	const bool isNew = !interaction->geom;
+	if (isNew) interaction->geom = boost::shared_ptr<ScGeom>(new ScGeom);
+	ScGeom& geom = static_cast<ScGeom&>(*interaction->geom);
+	const Vector3r before = geom.normal;
+	placeScGeom(*interaction, nearest);
+	geom.normal = before; // precompute() compares it with the new one
+	geom.precompute(state1, state2, &scene, interaction, nearest.normal, isNew, shift2, fixedArms);
 	return true;
 }
 

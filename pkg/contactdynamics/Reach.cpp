@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Reach.hpp"
+#include "BodySize.hpp"
 #include "ContactDynamicsCellController.hpp"
 #include "ContactDynamicsTriaxialController.hpp"
-#include "ConvexShapes.hpp"
+#include "Gravity.hpp"
 #include <core/Body.hpp>
 #include <core/Cell.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Facet.hpp>
 #include <pkg/common/Sphere.hpp>
-#include <pkg/dem/NewtonIntegrator.hpp>
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <mutex>
 #include <unordered_map>
 #include <vector>
@@ -32,14 +34,25 @@ constexpr Real slowStep = 0.5;
 constexpr Real flightsPerCell = 4;
 
 struct Surroundings {
-	std::vector<Real> speed, radius, margin, reach; // by body id
+	std::vector<Real> speed, radius, margin; // by body id
 	Real smallestRadius = std::numeric_limits<Real>::infinity();
 	Real largestSpeed = 0;	// of all bodies
 	Real boundarySpeed = 0; // of bodies that are neither spheres nor polyhedra: they may be anywhere along their extent
 };
-std::atomic<const Scene*> knownScene{nullptr};
-std::atomic<long> knownIter{-1};
-Surroundings known; // written under `guard` before knownIter and knownScene are published
+
+/// What was worked out for a step of a scene.
+struct Reaches {
+	const Scene* scene = nullptr;
+	long iter = 0;
+	Real dt = 0;
+	std::vector<Real> reach;						// by body id [m]
+	std::unique_ptr<std::atomic<bool>[]> boundMade; // by body id, in this pass of the collider
+
+	bool isOf(const Scene& asked) const { return scene == &asked && iter == asked.iter && dt == asked.dt && reach.size() == asked.bodies->size(); }
+};
+/// Two, because in a pass that begins, other threads may still read from those of before.
+Reaches buffers[2];							// written under `guard`
+std::atomic<const Reaches*> known{nullptr}; // one of the buffers
 std::mutex guard;
 
 /// Largest distance of a point of the surface from the body's position, for the part of its speed that comes from rotation.
@@ -77,10 +90,10 @@ Real surfaceSpeed(const Scene& scene, const Body& body, Real radius, Real gravit
 Surroundings measureSpeeds(const Scene& scene)
 {
 	Surroundings around;
-	Real gravity = 0, cellRate = scene.isPeriodic ? scene.cell->velGrad.norm() : 0;
+	const Real gravity = gravityOf(scene).norm();
+	Real cellRate = scene.isPeriodic ? scene.cell->velGrad.norm() : 0;
 	std::unordered_map<int, Real> driven;
 	for (const auto& engine : scene.engines) {
-		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) gravity = newton->gravity.norm();
 		if (const auto* cell = dynamic_cast<const ContactDynamicsCellController*>(engine.get()); cell && !cell->dead)
 			cellRate = std::max(cellRate, std::min(cell->outlook(scene).rate, cell->largestStrain / scene.dt)); // more is refused
 		if (const auto* box = dynamic_cast<const ContactDynamicsTriaxialController*>(engine.get()); box && !box->dead)
@@ -92,11 +105,10 @@ Surroundings measureSpeeds(const Scene& scene)
 	for (const auto& body : *scene.bodies) {
 		if (body->isClump()) continue;
 		const int id = body->getId();
-		const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get());
-		const Real radius = sphere ? sphere->radius : body->shape ? polyhedronRadius(*body->shape) : 0;
+		const Real radius = grainRadius(*body);
 		if (radius > 0) {
 			around.radius[id] = radius;
-			around.margin[id] = (sphere ? marginOfRadius : marginOfPolyhedron) * radius;
+			around.margin[id] = (dynamic_cast<const Sphere*>(body->shape.get()) ? marginOfRadius : marginOfPolyhedron) * radius;
 			around.smallestRadius = std::min(around.smallestRadius, radius);
 		}
 		Real speed = surfaceSpeed(scene, *body, around.radius[id], gravity, cellRate);
@@ -146,7 +158,7 @@ private:
 	std::unordered_map<std::uint64_t, Real> cells;
 };
 
-void spreadReaches(const Scene& scene, Surroundings& around)
+std::vector<Real> spreadReaches(const Scene& scene, const Surroundings& around)
 {
 	const Real h = scene.dt;
 	std::vector<Real> near = std::vector<Real>(around.speed.size(), around.largestSpeed);
@@ -165,37 +177,53 @@ void spreadReaches(const Scene& scene, Surroundings& around)
 		for (const auto& body : *scene.bodies)
 			if (body->isClumpMember()) near[body->getId()] = clumps[body->clumpId];
 	}
-	around.reach.assign(around.speed.size(), 0);
+	std::vector<Real> reach(around.speed.size(), 0);
 	for (const auto& body : *scene.bodies) {
 		const int id = body->getId();
 		const bool driven = !body->isDynamic() && !body->isClumpMember(); // nothing can be handed on to it
-		around.reach[id] = h * (driven ? around.speed[id] : std::max(around.speed[id], near[id])) + around.margin[id];
+		reach[id] = h * (driven ? around.speed[id] : std::max(around.speed[id], near[id])) + around.margin[id];
 	}
+	return reach;
 }
 
-const Surroundings& surroundings(const Scene& scene)
+/// Those of the scene's present step, worked out if they are not known or are `outdated`, which may be null.
+const Reaches& reachesOf(const Scene& scene, const Reaches* outdated)
 {
-	if (knownScene.load(std::memory_order_acquire) == &scene && knownIter.load(std::memory_order_acquire) == scene.iter) return known;
+	const auto usable = [&](const Reaches* its) { return its && its != outdated && its->isOf(scene); };
+	if (const Reaches* its = known.load(std::memory_order_acquire); usable(its)) return *its;
 	const std::lock_guard<std::mutex> lock(guard);
-	if (knownScene.load() == &scene && knownIter.load() == scene.iter) return known;
-	knownScene.store(nullptr);
-	known = measureSpeeds(scene);
-	spreadReaches(scene, known);
-	knownIter.store(scene.iter, std::memory_order_release);
-	knownScene.store(&scene, std::memory_order_release);
-	return known;
+	if (const Reaches* its = known.load(); usable(its)) return *its;
+	Reaches& fresh = buffers[known.load() == &buffers[0] ? 1 : 0];
+	const std::size_t before = fresh.reach.size();
+	fresh.scene = &scene;
+	fresh.iter = scene.iter;
+	fresh.dt = scene.dt;
+	fresh.reach = spreadReaches(scene, measureSpeeds(scene));
+	if (!fresh.boundMade || before != fresh.reach.size()) fresh.boundMade.reset(new std::atomic<bool>[fresh.reach.size()]);
+	for (std::size_t id = 0; id < fresh.reach.size(); ++id) fresh.boundMade[id].store(false, std::memory_order_relaxed);
+	known.store(&fresh, std::memory_order_release);
+	return fresh;
 }
 } // namespace
 
-double Reach::ofBody(const Scene& scene, int id)
+double Reach::ofBound(const Scene& scene, int id)
 {
 	if (!(scene.dt > 0)) return 0;
-	const auto& reach = surroundings(scene).reach;
-	return static_cast<std::size_t>(id) < reach.size() ? reach[id] : 0;
+	const Reaches* its = &reachesOf(scene, nullptr);
+	if (its->boundMade[id].exchange(true, std::memory_order_relaxed)) {
+		its = &reachesOf(scene, its);
+		its->boundMade[id].store(true, std::memory_order_relaxed);
+	}
+	return its->reach[id];
 }
 
-double Reach::ofPair(const Scene& scene, int id1, int id2) { return ofBody(scene, id1) + ofBody(scene, id2); }
+double Reach::ofPair(const Scene& scene, int id1, int id2)
+{
+	if (!(scene.dt > 0)) return 0;
+	const Reaches& its = reachesOf(scene, nullptr);
+	return its.reach[id1] + its.reach[id2];
+}
 
-void Reach::forget() { knownScene.store(nullptr); }
+void Reach::forget() { known.store(nullptr); }
 
 } // namespace yade

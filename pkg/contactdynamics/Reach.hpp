@@ -17,12 +17,13 @@ class Scene;
 /// gradient of the periodic cell counts by the velocity difference it makes over r. Cell and walls that a controller of ours drives count with the
 /// motion that they may have in the coming step, not only with that of the last one.
 namespace Reach {
-/// Reach of one body [m]; 0 when the time step is not positive (the engine refuses such a step).
-double ofBody(const Scene& scene, int id);
+/// Reach of one body for its bound [m]; 0 when the time step is not positive (the engine refuses such a step). A pass of the collider asks once for
+/// each body: the second time a body is asked for, another pass has begun, and all is worked out anew.
+double ofBound(const Scene& scene, int id);
 /// Sum of the reaches of two bodies of `scene` [m].
 double ofPair(const Scene& scene, int id1, int id2);
-/// The reaches are worked out once a step; the engine calls this when its step is over (also after an error), because positions
-/// and velocities may be changed by hand before the step is tried again.
+/// The reaches are worked out once a step; this is called when the step is over (also after an error), and after what a user does to single pairs,
+/// because positions and velocities may be changed by hand before the next pass.
 void forget();
 } // namespace Reach
 

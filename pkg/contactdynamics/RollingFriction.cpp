@@ -64,12 +64,14 @@ contactdynamics::SolveReport RollingFriction::solve(contactdynamics::SignoriniCo
 			one.angularVelocity -= one.inverseInertia * row.impulse;
 			two.angularVelocity += two.inverseInertia * row.impulse;
 		}
-		auto report = solver.solve(problem, options);
+		contactdynamics::SolverOptions left = options;
+		left.maxIterations -= iterations;
+		auto report = solver.solve(problem, left);
 		report.iterations = iterations += report.iterations;
 		if (report.status == contactdynamics::SolveStatus::notFinite) return report;
 		const Real change = improve(problem);
 		if (!(change > options.tolerance)) return report; // the torques applied are those of the velocities; what improve() found is not needed
-		if (pass == mostPasses) {
+		if (pass == mostPasses || iterations >= options.maxIterations) {
 			report.residual = std::max(report.residual, change);
 			report.status = contactdynamics::SolveStatus::maxIterations;
 			return report;

@@ -32,6 +32,7 @@ Vector3r tangentialPart(const Vector3r& vector, const Vector3r& normal) { return
 void ShiftedContacts::clear(Real timeStep)
 {
 	h = timeStep;
+	restored = false;
 	shifts.clear();
 }
 
@@ -127,8 +128,9 @@ bool ShiftedContacts::breaks(const contactdynamics::GrainProblem& problem, const
 	}
 }
 
-void ShiftedContacts::restore(contactdynamics::GrainProblem& problem, Real tolerance) const
+void ShiftedContacts::restore(contactdynamics::GrainProblem& problem, Real tolerance)
 {
+	restored = true;
 	for (const Shift& made : shifts) {
 		contactdynamics::Contact& contact = problem.contacts[made.index];
 		const Vector3r slip = tangentialPart(contact.relativeVelocity + contact.tangentialCompliance * contact.impulse, contact.normal);
@@ -144,6 +146,7 @@ void ShiftedContacts::restore(contactdynamics::GrainProblem& problem, Real toler
 contactdynamics::GrainProblem ShiftedContacts::asSolved(const contactdynamics::GrainProblem& problem) const
 {
 	contactdynamics::GrainProblem solved = problem;
+	if (!restored) return solved; // the step ended with an error before
 	for (const Shift& made : shifts) {
 		contactdynamics::Contact& contact = solved.contacts[made.index];
 		contact.relativeVelocity += made.tangential;

@@ -35,9 +35,9 @@ public:
 	void shift(contactdynamics::GrainProblem& problem, int index, ContactDynamicsPhys& phys, const Approach& approach);
 	/// Back to true impulses and velocities, and what the law remembers (bond, stretch).
 	/// @param tolerance  of the solve: a bond whose contact moves by no more than that of its strength holds
-	void restore(contactdynamics::GrainProblem& problem, Real tolerance) const;
+	void restore(contactdynamics::GrainProblem& problem, Real tolerance);
 
-	/// The problem as it was solved, from what restore() left.
+	/// The problem as it was solved: also from what restore() left.
 	contactdynamics::GrainProblem asSolved(const contactdynamics::GrainProblem& problem) const;
 	bool empty() const { return shifts.empty(); }
 
@@ -61,6 +61,7 @@ private:
 	void stretch(const Shift& made, const contactdynamics::Contact& contact, const Vector3r& slip) const;
 
 	Real h = 0;
+	bool restored = false;
 	std::vector<Shift> shifts; // by increasing index
 };
 

@@ -24,7 +24,7 @@ void judgeCell(const std::string& name, int stressMask, Place place)
 					"Use ContactDynamicsCellController for stress, or stressMask=0 (strain only).");
 	requireController(place == Place::before,
 					  name + " stands behind this engine in O.engines, so the contacts would be solved for another motion of the cell; put it "
-							 "before, behind the InteractionLoop.");
+							 "between InteractionLoop and this engine.");
 }
 
 void judgeBox(const TriaxialStressController& controller, Place place)

@@ -115,11 +115,13 @@ std::vector<std::int32_t> boundary(const std::vector<Facet>& facets, int face)
 ConvexShape convexHull(const std::vector<Vector3>& given)
 {
 	if (given.size() < 4) throw std::invalid_argument("a polyhedron needs at least four vertices");
-	double size = 0;
+	Vector3 least = given[0], most = given[0];
 	for (const Vector3& point : given) {
 		if (!point.allFinite()) throw std::invalid_argument("a vertex of the polyhedron is not finite");
-		size = std::max(size, (point - given[0]).norm());
+		least = least.cwiseMin(point);
+		most = most.cwiseMax(point);
 	}
+	const double size = (most - least).norm();
 	// Programs that work hulls out themselves, as YADE does, may hand the same vertices over in another order in every process.
 	std::vector<Vector3> points = given;
 	std::sort(points.begin(), points.end(),

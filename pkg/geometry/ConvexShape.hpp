@@ -31,12 +31,12 @@ struct ConvexShape {
 	void complete();
 };
 
-/// Faces that are coplanar to this part of the radius are one face.
+/// Faces that are coplanar to this part of the diagonal of the box around the points are one face.
 constexpr double coplanar = 1e-11;
 
 /// Convex hull of `points`, coplanar facets joined. The topology is decided by CGAL's exact predicates, and numbered by the
 /// coordinates of the points: their order does not matter.
-/// @throws std::invalid_argument  fewer than four points, one that is not finite, or all in one plane (within coplanar * radius)
+/// @throws std::invalid_argument  fewer than four points, one that is not finite, or all in one plane (to the same part)
 ConvexShape convexHull(const std::vector<Vector3>& points);
 
 /// A cuboid around the origin with half edges `half`, all > 0 [m].

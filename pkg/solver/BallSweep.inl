@@ -9,11 +9,12 @@ static inline SweepNorms sweepOf(BodyState* bodies, BallPack* packs, std::size_t
 {
 	const Wide zero = all(0), relax = all(extrapolation.relax), momentum = all(extrapolation.momentum);
 	Wide increment2 = zero, impulse2 = zero, moment[9]{};
-	constexpr std::size_t farAhead = 12;
-	constexpr std::size_t ahead = 6; // packs: their bodies lie anywhere in memory, and only we know where
-	for (BallPack* pack = packs; pack != packs + count; ++pack) {
-		if (pack + ahead < packs + count) prefetchBodies(bodies, pack[ahead]);
-		if (pack + farAhead < packs + count)
+	constexpr std::ptrdiff_t farAhead = 12;
+	constexpr std::ptrdiff_t ahead = 6; // packs: their bodies lie anywhere in memory, and only we know where
+	const BallPack* const end = packs + count;
+	for (BallPack* pack = packs; pack != end; ++pack) {
+		if (end - pack > ahead) prefetchBodies(bodies, pack[ahead]);
+		if (end - pack > farAhead)
 			for (std::size_t i = 0; i < sizeof(BallPack); i += 64) __builtin_prefetch(reinterpret_cast<const char*>(pack + farAhead) + i, 1);
 		Side one = gather(bodies, pack->body1), two = gather(bodies, pack->body2);
 		const Vector n = load(pack->normal);
@@ -76,9 +77,11 @@ void BODY_ADVANCE(BodyState* now, BodyState* start, BodyState* direction, std::s
 	};
 	constexpr std::size_t ahead = 8; // bodies
 	for (std::size_t i = 0; i < count; ++i) {
-		__builtin_prefetch(now + i + ahead, 1);
-		__builtin_prefetch(start + i + ahead, 1);
-		__builtin_prefetch(direction + i + ahead, 1);
+		if (i + ahead < count) {
+			__builtin_prefetch(now + i + ahead, 1);
+			__builtin_prefetch(start + i + ahead, 1);
+			__builtin_prefetch(direction + i + ahead, 1);
+		}
 		advance(now[i].velocity, start[i].velocity, direction[i].velocity);
 		advance(now[i].angularVelocity, start[i].angularVelocity, direction[i].angularVelocity);
 	}

@@ -63,7 +63,7 @@ private:
 			return;
 		}
 		if (!sweepPlainly() || solved()) return;
-		int until = finishes ? fewestSweeps : options.maxIterations;
+		int until = finishes ? std::max(fewestSweeps, report.iterations) : options.maxIterations;
 		while (!solved() && report.iterations < options.maxIterations) {
 			if (!sweep(until - report.iterations, options.acceleration)) break;
 			if (solved() || !finishes) continue;
@@ -89,11 +89,12 @@ private:
 	bool sweepPlainly()
 	{
 		double before = best.residual;
-		for (int round = 8; report.iterations < options.maxIterations; round = 8) {
+		constexpr int round = 8;
+		while (report.iterations < options.maxIterations) {
 			if (!sweep(round, Acceleration::none)) return false;
 			if (solved()) return true;
 			const double left = std::log(options.tolerance / last) / std::log(last / before) * round;
-			if (report.iterations > 8 && !(last < before && left < 60)) return true;
+			if (report.iterations > round && !(last < before && left < 60)) return true;
 			before = last;
 		}
 		return true;

@@ -48,6 +48,8 @@ public:
 				// They promised too much: believe them again when they are smaller by what is missing.
 				if (impulse > 0) promise = std::min(0.9, 0.95 * tolerance / last) * increment / impulse;
 			}
+		} else if (stagnates()) {
+			if (!op.mend() && !((last = op.certificate()) > tolerance)) return true;
 		} else if (count % mendEvery == 0)
 			op.mend();
 		if (accelerated) extrapolation = accelerator.next(norms.increment2, promise * promise * norms.impulse2);
@@ -97,6 +99,17 @@ public:
 	bool hasStalled() const { return accelerator.hasStalled(); }
 
 private:
+	/// Whether the increments have not halved while the sweeps doubled. They may be round-off of larger velocities then, which never falls: where
+	/// grains that fly together touch with next to no impulse, only the certificate, which knows the velocities, can tell.
+	bool stagnates()
+	{
+		constexpr int first = 16;
+		if (count < first || (count & (count - 1)) != 0) return false;
+		const bool so = count > first && !(relative2 < 0.25 * earlier2);
+		earlier2 = relative2;
+		return so;
+	}
+
 	static constexpr int mendEvery = 8; // sweeps; a look at a sleeper costs about a quarter of a visit
 	Operator& op;
 	const double tolerance;
@@ -104,7 +117,8 @@ private:
 	double promise; // of the increments, relative
 	int count = 0;
 	double last = 0;
-	double relative2 = 0, kept2 = std::numeric_limits<double>::infinity(); // increments of the last sweep, and of the one kept
+	// Squared increments relative to the impulses: of the last sweep, of the one kept, of half as many sweeps ago.
+	double relative2 = 0, kept2 = std::numeric_limits<double>::infinity(), earlier2 = 0;
 	Accelerator accelerator;
 	Extrapolation extrapolation;
 };

@@ -9,7 +9,7 @@ from typing import Any
 
 from yade import KinematicEngine, NewtonIntegrator, O, PeriodicEngine, Sphere, TimeStepper, Vector3, utils
 
-from . import ContactDynamicsEngine
+from . import ContactDynamicsEngine, _plugin
 
 # In units of sqrt(r/g) and sqrt(g r), for the smallest radius r. A grain that falls freely for one step of _REPAIR reaches 0.75 % of the speed
 # sqrt(4 g r) of a fall over one diameter. A step of _DESCENT at the speed of descent, or one that gravity makes, is a way of 0.0025 r.
@@ -51,6 +51,7 @@ def takeOver(engines: list, dt: float, settle: int | None = None) -> int:
             forces[contact.id1, contact.id2] = contact.phys.normalForce + contact.phys.shearForce
     O.interactions.clear()
     O.engines = engines
+    _plugin.showBodiesToCollider()
     O.dt = dt
     settling = _Settling()
     if settle is None:
@@ -78,7 +79,7 @@ class _Settling:
     def __init__(self) -> None:
         self.dt, self.engines = O.dt, O.engines
         self.solver = next((e for e in self.engines if isinstance(e, ContactDynamicsEngine)), None)
-        self.fall = sum((e.gravity for e in self.engines if isinstance(e, NewtonIntegrator)), Vector3(0, 0, 0))
+        self.fall = sum((e.gravity for e in self.engines if isinstance(e, NewtonIntegrator) and not e.dead), Vector3(0, 0, 0))
         self.gravity = self.fall.norm()
         self.radius = min((b.shape.radius for b in O.bodies if isinstance(b.shape, Sphere)), default=0.0)
         self.speed = math.sqrt(self.gravity * self.radius)

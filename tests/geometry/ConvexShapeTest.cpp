@@ -82,3 +82,22 @@ TEST(ConvexShape, HullDoesNotDependOnTheOrderOfThePoints)
 		EXPECT_EQ(before.loops, after.loops);
 	}
 }
+
+/// Nor where a corner rises above a face by just about what counts as coplanar.
+TEST(ConvexShape, CoplanarDoesNotDependOnTheOrderOfThePoints)
+{
+	const double diagonal = std::sqrt(8 * 8 + 1 + 1);
+	std::size_t joined = 0, apart = 0;
+	for (double rise = 0.2; rise < 4; rise += 0.1) {
+		std::vector<Vector3> points{{0.1, 0.2, 0.5 + rise * contactdynamics::coplanar * diagonal}};
+		for (int i = 0; i < 8; ++i) points.emplace_back(i & 1 ? 4 : -4, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
+		const std::size_t faces = convexHull(points).faces.size();
+		(faces == 6 ? joined : apart) += 1;
+		for (std::size_t turn = 1; turn < points.size(); ++turn) {
+			std::rotate(points.begin(), points.begin() + 1, points.end());
+			EXPECT_EQ(convexHull(points).faces.size(), faces) << rise;
+		}
+	}
+	EXPECT_GT(joined, 0u);
+	EXPECT_GT(apart, 0u);
+}

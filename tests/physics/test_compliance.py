@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from yade import O
+from yade import O, Vector3
 
 from scenes import G, contact, equip, floor, grain, impulse_on, law, state, steps
 
@@ -92,3 +92,22 @@ def test_mortars_in_series() -> None:
     equip(1e-3)
     O.step()
     assert contact(0, ball).phys.kn == pytest.approx(2e6)
+
+
+@pytest.mark.parametrize("contact_law", ["quasiInelasticShock", "velocitySignorini", "signorini"])
+def test_open_contact_has_no_stretch_and_no_torque(contact_law: str) -> None:
+    """Also where it stays a candidate, and whether it takes part in the solve or not."""
+    law(kn=1e6, ks=1e5, rollingFriction=0.1, frictionAngle=math.atan(5))
+    plate = floor()
+    ball = grain((0, 0, 1))
+    equip(1e-3, tolerance=1e-12, contactLaw=contact_law)
+    steps(200)
+    state(ball).vel = Vector3(0.3, 0, 0)
+    steps(20)
+    phys = contact(plate, ball).phys
+    assert phys.stretch.norm() > 1e-4 and phys.torqueImpulse.norm() > 0
+    state(ball).pos, state(ball).vel, state(ball).angVel = Vector3(0, 0, 1.01), Vector3(0, 0, 1), Vector3(0, 0, 0)
+    steps(2)
+    phys = contact(plate, ball).phys
+    assert phys.status == "none" and phys.gap > 0
+    assert phys.stretch == Vector3(0, 0, 0) and phys.torqueImpulse == Vector3(0, 0, 0)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from yade import O, Vector3
 
-from scenes import G, box, cd, equip, floor, grain, kinetic_energy, law, state, steps
+from scenes import G, box, cd, contact, equip, floor, grain, kinetic_energy, law, state, steps
 
 
 def potential(g: float) -> float:
@@ -223,3 +223,34 @@ def test_laws_that_only_take() -> None:
         # r . U+ is negative but for the residual, 1e-6 of the impulses.
         assert min(rises) >= -1e-6 * max(rises) and booked > 0
         assert all(value > 0 for value in terms().values()), terms()
+
+
+def test_tangential_spring_stores_what_the_ball_gives() -> None:
+    """A ball that can only slide, pressed by a constant overlap: kinetic energy goes to and fro between it and ks s^2 / 2, nothing is damped.
+
+    The springs are averaged over neighbouring steps, which keeps the energy of an oscillation but for a share p = x^2, x = h^2 ks / m = 2.5e-4 here, of
+    the force (ShiftedContacts.hpp), that is p x = 1.5e-11 of the energy a step.
+    """
+    kn, ks, overlap = 1e9, 1e6, 1e-3
+    plate = floor(material=law(frictionAngle=math.atan(5)))
+    ball = grain((0, 0, 1 - overlap), velocity=(1e-3, 0, 0), material=law(kn=kn, ks=ks, frictionAngle=math.atan(5)))
+    state(ball).blockedDOFs = "zXYZ"
+    h = 2 * math.pi * math.sqrt(state(ball).mass / ks) / 400
+    equip(h, gravity=(0, 0, 0), tolerance=1e-13, repairRate=0)
+    O.trackEnergy = True
+    start = kinetic_energy()
+    normal = 0.5 * kn * overlap**2
+    x = h * h * ks / state(ball).mass
+    stretches = []
+    for _ in range(500):
+        O.step()
+        phys = contact(plate, ball).phys
+        # Half-way between the last two positions, as all energies are.
+        middle = phys.stretch[0] - 0.5 * h * state(ball).vel[0]
+        stretches.append(phys.stretch[0])
+        assert phys.status == "sticking"
+        assert O.energy["contactElastic"] - normal == pytest.approx(0.5 * ks * middle**2, abs=1e-12 * normal)
+    assert max(stretches) == pytest.approx(1e-3 * math.sqrt(state(ball).mass / ks), rel=1e-3)
+    # The overlap is there from the start: its energy comes from nowhere. And the velocity given at the start belongs to the middle of the step before,
+    # where the stretch was -v h / 2: the energy of that, ks (v h / 2)^2 / 2, counts as lost.
+    assert O.energy["contactDamping"] + normal == pytest.approx(0.25 * x * start, rel=1e-2, abs=1e-12 * normal)

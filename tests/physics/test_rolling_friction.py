@@ -8,7 +8,7 @@ import math
 import pytest
 from yade import O, Vector3
 
-from scenes import G, contact, equip, floor, grain, law, state, steps
+from scenes import G, cd, contact, equip, floor, grain, law, state, steps
 
 
 @pytest.mark.parametrize("h", [1e-3, 4e-3])
@@ -77,3 +77,15 @@ def test_stopping_is_no_failure_of_the_solve() -> None:
     # 7 v^2 / (10 mu_r g) = 2.85 m at a deceleration of 5/7 mu_r g: 1427 steps.
     steps(1500)
     assert state(ball).vel.norm() < 1e-10
+
+
+def test_passes_share_the_sweeps_of_a_step() -> None:
+    """Each pass over the torques is a solve; maxIterations is the bound of all of them, told by the count and by the status."""
+    law(rollingFriction=0.2, twistingFriction=0.1, frictionAngle=0.5)
+    floor()
+    for k in range(27):
+        grain((2.02 * (k % 3) + 0.1 * (k // 9), 2.02 * (k // 3 % 3), 1 + 1.99 * (k // 9)), velocity=(1, 0.3 * (k % 3), -1), spin=(0, 1, 0.5))
+    equip(1e-3, tolerance=1e-10, maxIterations=20, onNonConvergence="ignore")
+    swept, missed = [], []
+    steps(40, lambda: (swept.append(cd().iterations), missed.append(not cd().converged)))
+    assert max(swept) == 20 and all(sweeps == 20 for sweeps, miss in zip(swept, missed) if miss) and any(missed)

@@ -7,5 +7,5 @@ from halves import Halves
 from saving_cases import numbers
 from vessels import hopper_from_anywhere
 
-_halves = Halves(lambda: hopper_from_anywhere(200), numbers, first=90, second=60)
+_halves = Halves(lambda: hopper_from_anywhere(200), numbers, first=90, second=50)
 straight, until_half, from_half = _halves.straight, _halves.until_half, _halves.from_half

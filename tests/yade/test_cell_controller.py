@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from yade import Matrix3, O, Vector3
+from yade import Matrix3, O, Vector3, polyhedra_utils
 
 import cell_cases as cases
 from cell_cases import GOAL, PRESSURE, SHEARED, control, dense, matrix
@@ -473,7 +473,7 @@ def test_cell_that_becomes_too_narrow_for_a_body() -> None:
     c = control(stressMask=0)
     steps(1)
     c.velGrad = Matrix3(0, 0, 0, 0, -60, 0, 0, 0, 0)
-    refused(f"#{ball}", "diameter 2.4", "edge 1", "more bodies")
+    refused(f"#{ball}", "Sphere", "2.4 wide", "edge 1", "more bodies")
     c.velGrad = Matrix3(0, 0, 0, 0, 20, 0, 0, 0, 0)
     steps(2)
 
@@ -533,3 +533,30 @@ def test_problem_too_large_to_be_full() -> None:
     assert cd().contacts > 1000
     with pytest.raises(RuntimeError, match=f"at most 1000 contacts, and there are {cd().contacts}"):
         cd().lastProblem()
+
+
+def test_cell_that_becomes_too_narrow_for_a_block() -> None:
+    """Cubes as well as balls; what counts is how long they are across the cell."""
+    O.periodic = True
+    O.cell.setBox(5, 5, 5)
+    material()
+    corners = [(1 + x, 1 + y, 1 + z) for x in (-0.6, 0.6) for y in (-1.2, 1.2) for z in (-0.3, 0.3)]
+    block = O.bodies.append(polyhedra_utils.polyhedra(O.materials[0], v=corners))
+    equip(1e-3, gravity=(0, 0, 0))
+    c = control(stressMask=0)
+    steps(1)
+    c.velGrad = Matrix3(-60, 0, 0, 0, 0, 0, 0, 0, -60)
+    steps(1)
+    c.velGrad = Matrix3(0, 0, 0, 0, -60, 0, 0, 0, 0)
+    refused(f"#{block}", "Polyhedra", "2.4 wide", "edge 1", "more bodies")
+
+
+@pytest.mark.parametrize("inertia", [0.0, 3.0])
+def test_inertia_in_use_is_kept_in_a_file(inertia: float, tmp_path) -> None:
+    row(-1e3, inertia=inertia)
+    steps(2)
+    before = engine("ContactDynamicsCellController").inertiaInUse
+    assert before == inertia or inertia == 0
+    O.save(str(tmp_path / "scene.xml"))
+    O.load(str(tmp_path / "scene.xml"))
+    assert engine("ContactDynamicsCellController").inertiaInUse == before > 0

@@ -18,8 +18,8 @@ from yade import (
     Vector3,
 )
 
-from scenes import G, box, cd, equip, grain, material, state, steps, vec
-from test_detection import facet
+from scenes import G, box, cd, engine, equip, floor, grain, material, state, steps, vec
+from test_detection import _target, facet
 
 H = 1e-3
 PLACES = {"before the collider": 1, "behind the loop": 3, "behind the integrator": 5, "first": 0}
@@ -234,3 +234,39 @@ def test_turned_plate_of_facets_set_by_hand() -> None:
     O.step()
     arm = np.array([3.0, 0.4, 0])
     assert vec(state(ball).vel) == pytest.approx(np.array([0.1, 0.2, 0.05]) + np.cross([0.02, -0.03, 0.2], arm), abs=1e-11)
+
+
+@pytest.mark.parametrize("kind", ["box", "wall", "facet"])
+def test_boundary_outside_the_mask_is_a_conveyor_belt(kind: str) -> None:
+    """It stays where it is, and its velocity drags along the surface only: a ball that cannot turn gets to the velocity of the belt after v / (mu g)."""
+    material(friction=0.5)
+    belt = _target(kind)
+    O.bodies[belt].mask = 5
+    place = state(belt).pos
+    state(belt).vel = Vector3(0.3, -0.4, 0.7)  # the last component is across the surface
+    ball = grain((0.1, 0.1, 1), mask=3)
+    state(ball).blockedDOFs = "XYZ"
+    h = 1e-3
+    equip(h, tolerance=1e-12)
+    engine("NewtonIntegrator").mask = 2
+    steps(1)
+    assert vec(state(ball).vel) == pytest.approx(0.5 * G * h * np.array([0.6, -0.8, 0]), rel=1e-9, abs=1e-12)
+    steps(int(0.5 / (0.5 * G * h)) + 2)
+    assert vec(state(ball).vel) == pytest.approx([0.3, -0.4, 0], abs=1e-9)
+    assert state(belt).pos == place
+
+
+def test_turning_drum_outside_the_mask_drags() -> None:
+    """A box outside the mask that turns about the vertical: its surface velocity under the ball is w x r."""
+    material(friction=0.5)
+    belt = floor()
+    O.bodies[belt].mask = 5
+    state(belt).angVel = Vector3(0, 0, 0.2)
+    ball = grain((3, 0, 1), mask=3)
+    state(ball).blockedDOFs = "XYZ"
+    equip(1e-3, tolerance=1e-12)
+    engine("NewtonIntegrator").mask = 2
+    steps(200)
+    expected = np.cross([0, 0, 0.2], vec(state(ball).pos))
+    # On its circle the ball needs 0.12 m/s2 of the 4.9 that friction gives; it has the velocity of the place it stood on at the start of the step.
+    assert vec(state(ball).vel)[:2] == pytest.approx(expected[:2], abs=0.2 * 0.6 * 1e-3 * 1.1)

@@ -10,6 +10,8 @@ from yade import (
     ForceEngine,
     GlobalStiffnessTimeStepper,
     GravityEngine,
+    InsertionSortCollider,
+    InteractionLoop,
     Law2_ScGeom_FrictPhys_CundallStrack,
     NewtonIntegrator,
     O,
@@ -19,6 +21,7 @@ from yade import (
     utils,
 )
 
+import contactdynamics
 from contactdynamics import ContactDynamicsEngine
 from scenes import contact, engine, equip, floor, grain, material, state, steps, vec
 
@@ -279,4 +282,46 @@ def test_servo_without_forces() -> None:
     with pytest.raises(RuntimeError, match="ServoPIDController|sync"):
         O.step()
     O.engines = right
+    works()
+
+
+def test_law_behind_the_engine_only() -> None:
+    """An InteractionLoop stands before it, but the one that knows our contacts comes too late."""
+    right = scene()
+    O.engines = right[:2] + [InteractionLoop([], [], [])] + right[3:] + [right[2]]
+    refused("no InteractionLoop before this engine", "Law2_ScGeom_ContactDynamicsPhys_SignoriniCoulomb")
+    O.engines = right
+    O.interactions.clear()  # YADE remembers for each pair that the empty loop had no functor for it
+    works()
+
+
+def test_servo_without_forces_in_a_combined_motion() -> None:
+    right = scene()
+    servo = TranslationEngine(ids=[0], translationAxis=(1, 0, 0), velocity=0) + ServoPIDController(axis=(0, 0, 1), target=1)
+    O.engines = right[:1] + [servo] + right[1:]  # further behind YADE finds the forces not synchronised and says that instead
+    refused("ServoPIDController", "CombinedKinematicEngine", "behind NewtonIntegrator")
+    O.engines = right[:3] + [TranslationEngine(ids=[0], translationAxis=(1, 0, 0), velocity=0) + TranslationEngine(translationAxis=(0, 1, 0), velocity=0)] + right[3:]
+    works()
+
+
+def test_global_stiffness_time_stepper_that_is_switched_off() -> None:
+    right = scene()
+    O.engines = right[:-1] + [GlobalStiffnessTimeStepper(active=False), right[-1]]
+    works()
+    assert O.dt == H
+
+
+def test_engines_refuses_what_no_engine_has() -> None:
+    with pytest.raises(ValueError, match="gravity = -9.81: .*three"):
+        contactdynamics.engines(gravity=-9.81)
+    with pytest.raises(AttributeError, match="ContactDynamicsEngine has no attribute 'damping'"):
+        contactdynamics.engines(damping=0.2)
+
+
+def test_collider_of_ones_own() -> None:
+    right = scene()
+    collider = InsertionSortCollider([], allowBiggerThanPeriod=True, avoidSelfInteractionMask=8)
+    O.engines = contactdynamics.engines(collider=collider)
+    assert O.engines[1].allowBiggerThanPeriod and O.engines[1].avoidSelfInteractionMask == 8 and O.engines[1].verletDist == 0
+    assert [type(f) for f in O.engines[1].boundDispatcher.functors] == [type(f) for f in right[1].boundDispatcher.functors]
     works()

@@ -14,7 +14,7 @@ from yade import O
 
 import contactdynamics
 from contactdynamics import fclib
-from scenes import box, cd, dumbbell, equip, floor, grain, steps
+from scenes import box, cd, dumbbell, equip, floor, grain, law, steps
 
 PROGRAM = Path(contactdynamics.__file__).resolve().parents[2] / "bin" / "contactdynamics-fclib"
 with_program = pytest.mark.skipif(not PROGRAM.exists(), reason="built without libfclib")
@@ -150,3 +150,23 @@ def test_what_is_there_survives_a_write_that_fails(tmp_path):
         fclib.write(str(path), title="\ud800")
     assert path.read_bytes() == before
     assert [file.name for file in tmp_path.iterdir()] == ["step.hdf5"]
+
+
+def test_problem_of_a_step_that_did_not_converge_with_laws() -> None:
+    """Bonds and restitution shift the problem, and apply() undoes it: after an error before that the problem is the same to the bit."""
+
+    def problem(mode: str) -> dict:
+        O.reset()
+        law(cohesionForce=5e3, normalRestitution=0.5, tangentialRestitution=0.5, frictionAngle=0.5)
+        floor()
+        for k in range(6):
+            grain((0.05 * k, 0, 1 + 2 * k), velocity=(0.1 * k, 0, -1))
+        equip(1e-3, tolerance=1e-14, maxIterations=1, onNonConvergence=mode)
+        if mode == "raise":
+            with pytest.raises(RuntimeError, match="residual"):
+                O.step()
+        else:
+            O.step()
+        return cd().lastProblem()
+
+    assert problem("raise") == problem("ignore")

@@ -10,6 +10,7 @@ from yade import MatchMaker, O, Vector3
 
 import laws_cases
 from contactdynamics import ContactDynamicsMat
+from refusal import refused
 from scenes import G, contact, engine, equip, floor, grain, isolated, law, state, steps, vec
 
 COEFFICIENTS = ["normalRestitution", "tangentialRestitution"]
@@ -163,3 +164,17 @@ def test_capillary_law_beside() -> None:
         assert "ViscElCapPhys" in kinds and ("ContactDynamicsPhys" in kinds) == rigid
         tracks.append(tuple(state(hung).vel) + tuple(state(hung).pos))
     assert tracks[0] == tracks[1]
+
+
+def test_shear_strength_needs_friction_while_sliding() -> None:
+    """Static friction alone is not enough: a contact that slides has none, and the strength c A would be divided by it."""
+    law(cohesionForce=1, frictionAngle=0.5)
+    plate = floor()
+    ball = grain((0, 0, 1))
+    equip(1e-3)
+    O.step()
+    phys = contact(plate, ball).phys
+    phys.tangensOfFrictionAngle, phys.staticFriction, phys.cohesionShear = 0, 0.5, 10
+    refused("tangensOfFrictionAngle is 0", "cohesionShear")
+    phys.tangensOfFrictionAngle = 0.5
+    O.step()

@@ -88,7 +88,7 @@ def test_stress_of_the_cell_is_refused(controller) -> None:
 def test_gradient_changed_behind_the_solve_is_refused(kind, place: str) -> None:
     cell()
     put(kind(stressMask=0), place)
-    refused(kind.__name__, "before")
+    refused(kind.__name__, "between InteractionLoop and this engine")
 
 
 def test_two_masters_of_the_cell_are_refused() -> None:

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from yade import Matrix3, O, Vector3, utils, wrapper
+from yade import Matrix3, O, Vector3, polyhedra_utils, utils, wrapper
 
 import contactdynamics
 from scenes import EPS, G, cd, contact, equip, floor, grain, material, overlaps, state, steps, vec
@@ -199,3 +199,20 @@ def test_same_bits_after_loading(tmp_path) -> None:
     O.load(str(tmp_path / "middle.yade.gz"))
     steps(40)
     assert numbers() == straight
+
+
+@pytest.mark.parametrize("small_ball", [False, True])
+def test_blocks_are_bodies_like_spheres(small_ball: bool) -> None:
+    """h (v + h g) = maxDisplacement r with r the ball around the smallest block, a cube, where no sphere is smaller."""
+    half = 0.5
+    material()
+    corners = [(x, y, z) for x in (-half, half) for y in (-half, half) for z in (-half, half)]
+    cube = O.bodies.append(polyhedra_utils.polyhedra(O.materials[0], v=corners))
+    grain((30, 0, 0), radius=0.3 if small_ball else 5)
+    utils_box = O.bodies.append(utils.box((60, 0, 0), (0.01, 9, 9), fixed=True))  # a wall is no grain
+    assert not O.bodies[utils_box].dynamic
+    state(cube).angVel = Vector3(1e-3, 0, 0)
+    stepper = _equip(gravity=(0, 0, -G), maxDisplacement=0.2, growth=10)
+    O.step()
+    radius = 0.3 if small_ball else half * math.sqrt(3)
+    assert O.dt * O.dt * G == pytest.approx(0.2 * radius, rel=1e-12) and stepper.limitedBy == "displacement"

@@ -171,11 +171,14 @@ NAN, INF = float("nan"), float("inf")
         ("wallMass", -2.0, ("wallMass = -2",)),
         ("wallMass", INF, ("wallMass = inf",)),
         ("maxStrainRate", 0.0, ("maxStrainRate = 0",)),
+        ("referenceSize", Vector3(1, 0, 1), ("referenceSize = 1 0 1",)),
+        ("referenceSize", Vector3(1, NAN, 1), ("referenceSize", "nan")),
+        ("referenceSize", Vector3(1, -1, 1), ("referenceSize", "-1")),
         ("maxStrainRate", NAN, ("maxStrainRate = nan",)),
     ],
 )
 def test_inadmissible_attributes(attribute: str, value, words) -> None:
-    attribute_refused(ContactDynamicsTriaxialController, attribute, value, words, walls=[5, 4, 3, 2, 1, 0], stress=(-1, -2, -3), strainRate=(1, 2, 3), stressMask=5, wallMass=3, maxStrainRate=2)
+    attribute_refused(ContactDynamicsTriaxialController, attribute, value, words, walls=[5, 4, 3, 2, 1, 0], stress=(-1, -2, -3), strainRate=(1, 2, 3), stressMask=5, wallMass=3, maxStrainRate=2, referenceSize=(1, 2, 3))
 
 
 def test_no_walls() -> None:

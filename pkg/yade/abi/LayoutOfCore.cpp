@@ -56,6 +56,7 @@ STOCK_MEMBER(Body, timeBorn, 168)
 
 STOCK_CLASS(BodyContainer, 200, 200)
 STOCK_MEMBER(BodyContainer, body, 24)
+STOCK_MEMBER(BodyContainer, checkedByCollider, 49)
 
 STOCK_CLASS(Bound, 144, 144)
 STOCK_MEMBER(Bound, lastUpdateIter, 32)

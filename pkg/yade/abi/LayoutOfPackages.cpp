@@ -6,6 +6,7 @@
 #include <pkg/common/BoundaryController.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Collider.hpp>
+#include <pkg/common/CombinedKinematicEngine.hpp>
 #include <pkg/common/ElastMat.hpp>
 #include <pkg/common/Facet.hpp>
 #include <pkg/common/FieldApplier.hpp>
@@ -30,6 +31,9 @@ STOCK_MEMBER(Box, extents, 96)
 STOCK_CLASS(Collider, 128, 124)
 STOCK_MEMBER(Collider, boundDispatcher, 104)
 STOCK_MEMBER(Collider, avoidSelfInteractionMask, 120)
+
+STOCK_CLASS(CombinedKinematicEngine, 152, 152)
+STOCK_MEMBER(CombinedKinematicEngine, comb, 128)
 
 STOCK_CLASS(ElastMat, 96, 96)
 STOCK_MEMBER(ElastMat, young, 80)

@@ -13,6 +13,6 @@ template <std::size_t from, std::size_t to> struct Opaque {
 	unsigned char bytes[to - from];
 };
 
-struct PrivateMembers; ///< the check of the layout looks at these, too: Layout.cpp
+struct PrivateMembers; ///< the check of the layout looks at these, too: LayoutOfCore.cpp
 
 } // namespace yade::abi

@@ -20,7 +20,14 @@ class BodyContainer : public Serializable {
 	ContainerT body;
 
 private:
-	abi::Opaque<48, 200> listsForCollider;
+	bool dirty;
+
+public:
+	/// False: the collider brings its lists up to date with the bodies inserted and erased. A collider that has no lists yet makes them only then.
+	bool checkedByCollider;
+
+private:
+	abi::Opaque<50, 200> listsForCollider;
 
 public:
 	BodyContainer() = delete;
