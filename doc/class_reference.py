@@ -85,6 +85,13 @@ def publicModules():
     return [importlib.import_module(f"contactdynamics.{name}") for name in sorted(names)]
 
 
+def groupOf(name):
+    """Heading under which a YADE class of ours stands."""
+    if name.endswith(("Engine", "Controller", "Stepper")):
+        return "Engines"
+    return "Bounds and geometry of contacts" if name.startswith(("Bo1", "Ig2")) or name.endswith("Geom") else "Physics and law of a contact"
+
+
 def title(text, line):
     return f"{text}\n{line * len(text)}\n"
 
@@ -92,10 +99,9 @@ def title(text, line):
 def main(path):
     if not OWN:
         sys.exit("the package contactdynamics shows no class of yade.wrapper, so there is nothing to document")
-    groups = {"Engine": [], "Physics and law of a contact": [], "Bounds and geometry of contacts": []}
+    groups = {"Engines": [], "Physics and law of a contact": [], "Bounds and geometry of contacts": []}
     for name in OWN:
-        group = "Engine" if name.endswith("Engine") else "Bounds and geometry of contacts" if name.startswith(("Bo1", "Ig2")) else "Physics and law of a contact"
-        groups[group].append(ofClass(name))
+        groups[groupOf(name)].append(ofClass(name))
     parts = [title("Class reference", "="), "Written by ``scripts/docs`` from the docstrings of the running classes.\n"]
     parts += [title("Presets", "-"), ofPython("contactdynamics", contactdynamics.engines)]
     for heading, entries in groups.items():

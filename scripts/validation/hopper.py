@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Discharge of 5,000 balls from a flat-bottomed hopper of STL facets through orifices of several diameters, against Beverloo's law.
 
-    yade -n -x scripts/validation/hopper.py [grains=5000] [orifices=6,7.5,9,10.5] [until=0.4]
+    PYTHONPATH=build/python yade -n -x scripts/validation/hopper.py [grains=5000] [orifices=6,7.5,9,10.5] [until=0.4]
 
 Beverloo, Leniger, van de Velde (1961): W = C rho_b sqrt(g) (D - k d)^2.5, with C about 0.58 and k about 1.4 for balls. W^(2/5) is
 fitted as a straight line in D; the fit gives C and k. The bed is filled once; the rings of the floor inside of an orifice are then erased

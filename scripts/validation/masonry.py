@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Short words for the scenes of dry masonry in this folder. All scenes lie in the x-z plane and are one unit deep."""
+"""Short words for the scenes of dry masonry in this folder. All scenes lie in the x-z plane; along y a body is one unit deep or what `depth` says."""
 
 from yade import polyhedra_utils
 import math

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Periodic assembly of hard balls: compressed to a pressure, then sheared at that pressure.
 
-    PYTHONPATH=build/python yade -n -x scripts/validation/periodic.py [grains=5000] [friction=0] [steps=800] [shear=0] [seed=1] [sweeps=300] [h=0.05] [last=50] [in=FILE] [out=FILE]
+    PYTHONPATH=build/python yade -n -x scripts/validation/periodic.py [grains=5000] [friction=0] [steps=2500] [shear=0] [seed=1] [sweeps=300] [h=0.05] [last=50] [in=FILE] [out=FILE]
 
 Compression starts from a gas (packing fraction 0.3) of balls with radii 0.9 ... 1.1, at three equal pressures and without shear; its rate is bounded
 to 0.3 / t_i, t_i = d sqrt(density / pressure). The first 200 steps are made at the default tolerance with h = 0.03 t_i, the others at 1e-5 with `h` t_i and
@@ -51,8 +51,6 @@ def tell(step: int) -> None:
         f"  overlap/r {cd.maxPenetration / radius:.1e}  cpu {time.process_time() - start:.0f} s",
         flush=True,
     )
-
-
 
 
 def gas() -> None:
