@@ -2,7 +2,6 @@
 #include "ContactDynamicsStep.hpp"
 #include "BodyCheck.hpp"
 #include "ContactDynamicsManifoldPhys.hpp"
-#include "LocalFrame.hpp"
 #include "ParallelLoop.hpp"
 #include <core/Cell.hpp>
 #include <core/Clump.hpp>
@@ -11,6 +10,7 @@
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/solver/GeneralContact.hpp>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -386,7 +386,7 @@ void ContactDynamicsStep::writeBack(const Link& link, const contactdynamics::Con
 	phys.normalForce = normal.dot(force) * normal;
 	phys.shearForce = force - phys.normalForce;
 	phys.gap = link.gap;
-	phys.localVelocity = localFrame(normal) * (sign * contact.relativeVelocity);
+	phys.localVelocity = contactdynamics::contactFrame(normal) * (sign * contact.relativeVelocity);
 	phys.status = nameOf(contact.status);
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The last problem of ContactDynamicsEngine with an explicit W, for other solvers and other measures. The solve itself never assembles W.
 #include "ContactDynamicsStep.hpp"
-#include "LocalFrame.hpp"
 #include <boost/python/tuple.hpp>
 #include <pkg/solver/AssembledGrains.hpp>
 #include <pkg/solver/ConvergenceNorms.hpp>
+#include <pkg/solver/GeneralContact.hpp>
 #include <stdexcept>
 
 namespace yade {
@@ -34,7 +34,7 @@ contactdynamics::BlockProblem ContactDynamicsStep::assembledProblem(const char* 
 	for (std::size_t i = 0; i < frames.size(); i++) {
 		// A swapped contact stands in the problem with the opposite normal; its components stay those of the YADE interaction.
 		const Real sign = links[i].swapped ? -1 : 1;
-		frames[i] = sign * localFrame(sign * grains.contacts[i].normal);
+		frames[i] = sign * contactdynamics::contactFrame(sign * grains.contacts[i].normal);
 	}
 	contactdynamics::BlockProblem blocks = contactdynamics::assembled(grains, frames);
 	if (shifted.empty() &&

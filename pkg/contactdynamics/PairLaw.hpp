@@ -17,7 +17,7 @@ struct PairLaw {
 	Real rollingFriction = 0, twistingFriction = 0;
 
 	/// Sets the attributes of `phys`, with the lengths of the two bodies' spheres.
-	/// @return  what is wrong and what is allowed; empty when all is well. Nothing is set then but the friction coefficient.
+	/// @return  what is wrong and what is allowed; empty when all is well. Nothing is set otherwise.
 	std::string applyTo(ContactDynamicsPhys& phys, const Body& body1, const Body& body2) const;
 };
 

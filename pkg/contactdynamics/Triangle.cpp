@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Triangle.hpp"
+#include <pkg/geometry/PointDistance.hpp>
 #include <algorithm>
 
 namespace yade {
-namespace {
-Vector3r nearestOnSegment(const Vector3r& p, const Vector3r& a, const Vector3r& b)
-{
-	const Vector3r along = b - a;
-	const Real squared = along.squaredNorm();
-	if (!(squared > 0)) return a;
-	return a + std::clamp((p - a).dot(along) / squared, Real(0), Real(1)) * along;
-}
-} // namespace
-
 Vector3r nearestOnTriangle(const Vector3r& p, const Vector3r& a, const Vector3r& b, const Vector3r& c)
 {
 	const Vector3r areaNormal = (b - a).cross(c - a);
@@ -24,6 +15,7 @@ Vector3r nearestOnTriangle(const Vector3r& p, const Vector3r& a, const Vector3r&
 		if (alongB >= 0 && alongC >= 0 && alongB + alongC <= 1) return a + alongB * (b - a) + alongC * (c - a);
 	}
 	// otherwise one of the edges; the shorter code of three segments was preferred to a walk through the Voronoi regions
+	using contactdynamics::nearestOnSegment;
 	const Vector3r candidates[3] = {nearestOnSegment(p, a, b), nearestOnSegment(p, b, c), nearestOnSegment(p, c, a)};
 	return *std::min_element(candidates, candidates + 3,
 							 [&p](const Vector3r& one, const Vector3r& other) { return (p - one).squaredNorm() < (p - other).squaredNorm(); });

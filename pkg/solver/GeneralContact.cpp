@@ -7,8 +7,9 @@ namespace contactdynamics {
 
 Matrix3 contactFrame(const Vector3& normal)
 {
-	const Vector3 axis = std::abs(normal[0]) < 0.6 ? Vector3::UnitX() : Vector3::UnitY();
-	const Vector3 t1 = (axis - axis.dot(normal) * normal).normalized();
+	int axis;
+	normal.cwiseAbs().minCoeff(&axis);
+	const Vector3 t1 = (Vector3::Unit(axis) - normal[axis] * normal).normalized();
 	Matrix3 frame;
 	frame.row(0) = normal;
 	frame.row(1) = t1;

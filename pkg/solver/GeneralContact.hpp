@@ -22,7 +22,7 @@ struct GeneralContact {
 	Vector3 impulse, increment, direction; ///< as in BallPack
 };
 
-/// Rows n, t1, t2 of a right-handed frame: a function of the normal alone.
+/// Rows n, t1, t2 of a right-handed frame, a function of the normal alone: t1 is the axis least aligned with it, made orthogonal to it.
 Matrix3 contactFrame(const Vector3& normal);
 
 /// W = H^T M^-1 H of one contact (29), in the frame.

@@ -91,7 +91,7 @@ private:
 	// The mean field: sum of r b^T over all contacts [kg m2/s], now, at the start of the last sweep, and in the search direction; L that goes with
 	// it.
 	Matrix3 moment = Matrix3::Zero(), momentStart = Matrix3::Zero(), momentDirection = Matrix3::Zero(), gradient = Matrix3::Zero();
-	double fieldStep = 0; // see start()
+	double fieldStep = 0; // see startField()
 	std::vector<FieldPass> chunkFields;
 	std::vector<Matrix3> runMoments;
 

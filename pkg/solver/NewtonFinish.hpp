@@ -14,12 +14,10 @@ template <int D> struct CertifiedPoint {
 
 /// Newton steps from a point of the sweeps, in two ways one after the other:
 ///
-///     swept     full steps, each followed by two plain sweeps, the damping falling whatever happens. The residual may rise on the way; the sweeps
-///     repair
-///               what a wrong guess of the active set has done. Finds the active set of stacks in a few steps.
-///     searched  steps with a line search on the norm of the function, the damping falling after a long step and rising after a failed one. Slower
-///     and
-///               surer; without sweeps, because they take it back to where they stall.
+///     swept     full steps, each followed by two plain sweeps, the damping falling whatever happens. The residual may rise on the way; the
+///               sweeps repair what a wrong guess of the active set has done. Finds the active set of stacks in a few steps.
+///     searched  steps with a line search on the norm of the function, the damping falling after a long step and rising after a failed one.
+///               Slower and surer; without sweeps, because they take it back to where they stall.
 ///
 /// Only points with a lower certificate than the best so far are kept, and only where no contact is crushed (CrushedContacts.hpp): damped steps go to
 /// infinity at once where there is no solution.

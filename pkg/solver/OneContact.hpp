@@ -30,8 +30,6 @@ public:
 	/// @param rate  in: sliding rate k of the last visit, where the search begins, 0: unknown; out: that of this visit, left alone unless it slides
 	Vector3 solve(const Vector3& b, double mu, double& rate) const;
 
-	double normalMobility() const { return Wnn; } ///< W_nn [1/kg]
-
 private:
 	double Wnn = 0, inverseWnn = 0;			   // [1/kg], [kg]
 	double cosine = 1, sine = 0;			   // eigenvectors of A: (cosine, sine), (-sine, cosine)

@@ -46,8 +46,6 @@ public:
 		return mobility > 0 ? Eigen::Vector2d(-bn / mobility, -first * mu * bn / mobility) : Eigen::Vector2d(-bn / Wnn, 0);
 	}
 
-	double normalMobility() const { return Wnn; }
-
 private:
 	double Wnn = 0, Wnt = 0, Wtt = 0;
 };

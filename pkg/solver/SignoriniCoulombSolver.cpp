@@ -47,7 +47,8 @@ void requireContacts(const GrainProblem& problem)
 			refuse(problem, i, "body index outside the " + std::to_string(count) + " bodies");
 		if (c.body1 == c.body2) refuse(problem, i, "a body cannot touch itself");
 		if (c.friction < 0) refuse(problem, i, "friction is " + std::to_string(c.friction) + ", must be >= 0");
-		if (c.normalCompliance < 0 || c.tangentialCompliance < 0) refuse(problem, i, "a compliance is negative, must be >= 0");
+		if (const double least = std::min(c.normalCompliance, c.tangentialCompliance); least < 0)
+			refuse(problem, i, "a compliance is " + std::to_string(least) + ", must be >= 0");
 		if (std::abs(c.normal.squaredNorm() - 1) > 1e-9)
 			refuse(problem, i, "the normal has length " + std::to_string(c.normal.norm()) + ", must be 1");
 	}
@@ -57,7 +58,8 @@ void requireField(const GrainProblem& problem)
 {
 	if (!problem.meanField) return;
 	const MeanField& field = *problem.meanField;
-	if (field.inverseMass.minCoeff() < 0) throw std::invalid_argument("MeanField::inverseMass has a negative component, must be >= 0");
+	if (const double least = field.inverseMass.minCoeff(); least < 0)
+		throw std::invalid_argument("MeanField::inverseMass has a component " + std::to_string(least) + ", must be >= 0");
 	if (field.inverseMass != field.inverseMass.transpose()) throw std::invalid_argument("MeanField::inverseMass is not symmetric");
 	if (!(field.limit > 0)) throw std::invalid_argument("MeanField::limit is " + std::to_string(field.limit) + ", must be > 0");
 }

@@ -51,7 +51,8 @@ def engines(
     more.setdefault("label", "cd")
     if timeStepper is True:
         timeStepper = wrapper.ContactDynamicsTimeStepper(label="timeStepper")
-    collider = collider or wrapper.InsertionSortCollider()
+    if collider is None:
+        collider = wrapper.InsertionSortCollider()
     collider.boundDispatcher.functors = [
         wrapper.Bo1_Sphere_Aabb_Proximity(),
         wrapper.Bo1_Polyhedra_Aabb_Proximity(),

@@ -138,6 +138,8 @@ def join(ids: Sequence[int], discretization: int = 0) -> int:
 def add(ids: Sequence[int], clump: int, discretization: int = 0) -> None:
     """Add free bodies to a clump that is free to move; momentum and errors as for :func:`join`."""
     whole = _clump(clump)
+    if whole.state.blockedDOFs:
+        raise ValueError(f"clump #{clump}: it has blocked degrees of freedom ({whole.state.blockedDOFs}), so momentum cannot be kept")
     bodies = [_body(number, "body") for number in ids]
     for body in bodies:
         if not body.isStandalone or body.state.blockedDOFs:

@@ -26,7 +26,7 @@ def write(path: str, engine: ContactDynamicsEngine | None = None, title: str = "
     :param title: title in the file; ``""`` (default) for the number of the step.
     :raises TypeError: ``engine`` is no ``ContactDynamicsEngine``, or ``title`` no string
     :raises ValueError: ``engine`` not given and ``O.engines`` has none, or more than one; a step without contacts
-    :raises RuntimeError: no step has been solved yet
+    :raises RuntimeError: no step has been solved yet, or the cell of a ContactDynamicsCellController couples more than 1000 contacts, so that W is full
     """
     # Imported here: scenes that write no problem do without h5py.
     import h5py

@@ -71,6 +71,17 @@ def fabric() -> np.ndarray:
     return normals.T @ normals / len(normals)
 
 
+def unbalancedForce() -> float:
+    """Mean resultant of forces on the free bodies over the mean force of the contacts that carry one [-]; infinite where none does.
+
+    YADE's ``utils.unbalancedForce()`` takes the mean over all real interactions, candidates at a distance as well, and so is larger: a criterion such as
+    ``unbalancedForce() < 0.01`` is met later than with a soft law.
+    """
+    real = sum(contact.isReal for contact in O.interactions)
+    loaded = len(loadedContacts())
+    return utils.unbalancedForce() * loaded / real if loaded else math.inf
+
+
 def kineticEnergyPerGrain(gravity: float = 9.81) -> float:
     """Kinetic energy of translation per grain in units of (mean weight x mean radius) [-]; small means at rest.
 
@@ -78,6 +89,7 @@ def kineticEnergyPerGrain(gravity: float = 9.81) -> float:
     and goes on for ever in a packing that is at rest otherwise.
 
     :param gravity: magnitude of the gravity that makes the weight [m/s2], > 0.
+    :raises ValueError: the scene has no free sphere
     """
     free = grains()
     energy = sum(0.5 * body.state.mass * body.state.vel.squaredNorm() for body in free)
@@ -85,9 +97,10 @@ def kineticEnergyPerGrain(gravity: float = 9.81) -> float:
 
 
 def packing(gravity: float = 9.81) -> Packing:
-    """All figures of :class:`Packing` for the scene as it is.
+    """All figures of :class:`Packing` for the scene as it is. Members of a clump count one by one.
 
     :param gravity: magnitude of the gravity [m/s2].
+    :raises ValueError: the scene has no free sphere
     """
     ends = {body.id: 0 for body in grains()}
     contacts = loadedContacts()

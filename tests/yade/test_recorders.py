@@ -139,6 +139,32 @@ def test_stress_of_the_packing_and_of_each_body() -> None:
     assert close(report.fabric(), loaded.T @ loaded / len(loaded), 1)
 
 
+def test_unbalanced_force_of_loaded_contacts() -> None:
+    """Mean of |f + m g| over the free bodies, clumps as one, over the mean force of the contacts that carry one."""
+    heap()
+    on = {b.id: np.zeros(3) for b in O.bodies if b.dynamic and not b.isClumpMember}
+    sizes = []
+    for one, two, _, f in pushes():
+        for number, sign in ((one, -1), (two, 1)):
+            b = O.bodies[number]
+            number = b.clumpId if b.isClumpMember else number
+            if number in on:
+                on[number] += sign * f
+        if np.linalg.norm(f) > 0:
+            sizes.append(np.linalg.norm(f))
+    resultants = [np.linalg.norm(f + state(n).mass * np.array([0, 0, -G])) for n, f in on.items()]
+    assert report.unbalancedForce() == pytest.approx(np.mean(resultants) / np.mean(sizes), rel=1e-9)
+    assert report.unbalancedForce() < 0.99 * utils.unbalancedForce()
+
+
+def test_nothing_is_balanced_without_a_contact() -> None:
+    material()
+    grain((0, 0, 5))
+    equip(H)
+    steps(1)
+    assert report.unbalancedForce() == math.inf
+
+
 def test_no_fabric_without_a_contact() -> None:
     material(friction=0)
     floor()
