@@ -14,7 +14,10 @@ from scenes import isolated, steps
 
 @dataclass(frozen=True)
 class Halves:
-    """`build` makes the scene, `bits` writes its numbers with at least `fewest` contacts that carry, `first` and `second` are the steps before and after the file."""
+    """`build` makes the scene, `bits` writes its numbers, `first` and `second` are the steps before and after the file.
+
+    With less than `fewest` contacts that carry an impulse at the end the comparison would say little.
+    """
 
     build: Callable[[], object]
     bits: Callable[[], str]

@@ -72,6 +72,5 @@ def numbers() -> str:
     return "\n".join(lines) + "\n"
 
 
-# 100 lines of contacts at least, or the comparison would say little.
 _halves = Halves(build, numbers, FIRST, SECOND, fewest=100)
 straight, until_half, from_half = _halves.straight, _halves.until_half, _halves.from_half
