@@ -114,6 +114,7 @@ private:
 	void settleBlockSeamsOf(const Scene& scene);
 	void passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts) const;
 	void describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const;
+	bool movesApart(const contactdynamics::Contact& contact) const;
 	Vector3r beltVelocity(const BodyView& view, const Vector3r& arm, const Vector3r& normal) const;
 	void requireUsable(const Link& link, const contactdynamics::Contact& contact) const;
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;

@@ -59,7 +59,7 @@ void requireField(const GrainProblem& problem)
 	if (!problem.meanField) return;
 	const MeanField& field = *problem.meanField;
 	if (const double least = field.inverseMass.minCoeff(); least < 0)
-		throw std::invalid_argument("MeanField::inverseMass has a component " + std::to_string(least) + ", must be >= 0");
+		throw std::invalid_argument("MeanField::inverseMass has the negative component " + std::to_string(least) + ", must be >= 0");
 	if (field.inverseMass != field.inverseMass.transpose()) throw std::invalid_argument("MeanField::inverseMass is not symmetric");
 	if (!(field.limit > 0)) throw std::invalid_argument("MeanField::limit is " + std::to_string(field.limit) + ", must be > 0");
 }

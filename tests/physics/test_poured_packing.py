@@ -4,6 +4,11 @@
 from __future__ import annotations
 
 import math
+import os
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Iterator
 
 import numpy as np
 import pytest
@@ -14,6 +19,8 @@ from scenes import EPS, G, box, cd, contacts, equip, grain, material, overlaps, 
 R, FRICTION, TOLERANCE = 0.01, 0.4, 1e-4
 H = 0.05 * math.sqrt(R / G)
 ACROSS, LAYERS = 12, 14
+AT_REST = 20  # steps without motion at the end
+WANDERING = 8e-4  # where sweeps stall, the residual was seen between 1e-4 and this (doc/grains.rst, "mean of the later half")
 POURING_SPEED = 2.0  # with the fall of some 0.3 m the grains arrive at 3 m/s and more
 
 
@@ -47,14 +54,17 @@ class Watch:
         self.inverse_mass = np.zeros(len(O.bodies))
         self.inverse_mass[self.ids] = 1 / self.mass
         self.max_overlap = self.mean_overlap = self.engine_max = self.engine_mean = 0.0
-        self.missed, self.cone = 0, 0.0
+        self.missed: dict[int, float] = {}  # residual by step
+        self.said = ""  # on standard error
+        self.cone = 0.0
         self.energy_excess = -math.inf
         self.iterations: list[int] = []
 
     def __call__(self) -> None:
         solver = cd()
         assert solver.converged == (solver.residual <= TOLERANCE), f"step {O.iter}: residual {solver.residual}"
-        self.missed += not solver.converged
+        if not solver.converged:
+            self.missed[O.iter] = solver.residual
         self.iterations.append(solver.iterations)
         self.engine_max = max(self.engine_max, solver.maxPenetration / R)
         self.engine_mean = max(self.engine_mean, solver.meanPenetration / R)
@@ -96,27 +106,49 @@ class Watch:
         return float(self.energies(velocities).sum())
 
 
+@contextmanager
+def errors_to(file: Path) -> Iterator[None]:
+    """What is written on standard error meanwhile, by C++ as well, goes to a file. (capfd is for a single test.)"""
+    sys.stderr.flush()
+    kept = os.dup(2)
+    try:
+        with open(file, "wb") as instead:
+            os.dup2(instead.fileno(), 2)
+        yield
+    finally:
+        sys.stderr.flush()
+        os.dup2(kept, 2)
+        os.close(kept)
+
+
 @pytest.fixture(scope="module")
-def poured() -> Watch:
+def poured(tmp_path_factory) -> Watch:
     """The pour, until nothing moves any more; the scene stays for the tests of this module."""
     O.reset()
     pour()
-    watch = Watch()
+    watch, said = Watch(), tmp_path_factory.mktemp("poured") / "said"
+    with errors_to(said):
+        pour_out(watch)
+    watch.said = said.read_text()
+    mean, most = np.mean(watch.iterations), max(watch.iterations)
+    print(f"pour: {O.iter} steps, iterations mean {mean:.0f} max {most}, {cd().contacts} contacts, missed {watch.missed}")
+    return watch
+
+
+def pour_out(watch: Watch) -> None:
+    """Steps until the packing is at rest."""
     weight = watch.mass.sum() * G
     # At rest: for twenty steps the momentum changes by less than 5e-5 of the weight, so no grain is in free flight (one
     # is 5e-4 of all), and the kinetic energy is a fiftieth of what lifts one grain by its radius. Two grains may go on
     # rocking in their nests, for ever, because nothing resists rolling; which of the two thousand do is a matter of chance.
     quiet = 0
-    while quiet < 20:
+    while quiet < AT_REST:
         O.step()
         watch()
         energy = np.sort(watch.energies(cd().predictedVelocities()))[:-2].sum()
         still = abs(vertical_support() / weight - 1) < 5e-5 and energy < 1e-5 * weight * R
         quiet = quiet + 1 if still else 0
         assert O.iter < 1500, f"not at rest: support {vertical_support() / weight} of the weight, energy {energy} J"
-    mean, most = np.mean(watch.iterations), max(watch.iterations)
-    print(f"pour: {O.iter} steps, iterations mean {mean:.0f} max {most}, {cd().contacts} contacts")
-    return watch
 
 
 def vertical_support() -> float:
@@ -138,11 +170,21 @@ def test_weight_is_carried_by_floor_and_walls(poured: Watch) -> None:
     assert vertical_support() == pytest.approx(poured.mass.sum() * G, rel=1e-4)
 
 
-def test_solves_meet_the_tolerance(poured: Watch) -> None:
-    """Each says whether it did. Coulomb's law makes the problem non-monotone, and now and then sweeps wander about its solution at 1e-4 to 3e-4 for ever,
-    plain ones as well (doc/grains.rst). Which of the hundreds of steps does is a matter of the last bits; most pours have none, this one has one.
+def test_solves_meet_the_tolerance_or_say_so(poured: Watch) -> None:
+    """Each tells whether it did (see Watch), and the first one that did not warns.
+
+    Coulomb's law makes the problem non-monotone, and now and then sweeps wander about its solution for ever, plain ones as well (doc/grains.rst). Which of
+    the hundreds of steps do is a matter of the last bits; most pours have none. But they stay near, and it comes from the violence of the pour: at rest
+    the impulses of the last step are the solution.
     """
-    assert poured.missed <= 1
+    warnings = [line for line in poured.said.splitlines() if line.startswith("WARNING: ContactDynamicsEngine")]
+    assert len(warnings) == bool(poured.missed), poured.said
+    for step, residual in poured.missed.items():
+        assert residual <= WANDERING and step < O.iter - AT_REST, poured.missed
+    if poured.missed:
+        # O.iter counts the step that was made, the engine warns within it.
+        first, residual = next(iter(poured.missed.items()))
+        assert f"step {first - 1}: residual {residual:g} " in warnings[0]
 
 
 def test_every_contact_is_inside_the_cone(poured: Watch) -> None:

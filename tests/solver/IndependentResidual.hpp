@@ -8,6 +8,8 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace contactdynamics::independent {
 
@@ -45,10 +47,13 @@ inline Matrix3 delassus(const GrainProblem& problem, const Contact& c)
 	return h1.transpose() * inverseMassMatrix(problem.bodies[c.body1]) * h1 + h2.transpose() * inverseMassMatrix(problem.bodies[c.body2]) * h2;
 }
 
+using Velocities = std::vector<Eigen::Matrix<double, 6, 1>>;
+
+/// What the impulses lead to, by body.
 /// @param free  the problem before the solve (free velocities);  @param solved  after it (impulses)
-inline double residual(const GrainProblem& free, const GrainProblem& solved)
+inline Velocities velocities(const GrainProblem& free, const GrainProblem& solved)
 {
-	std::vector<Eigen::Matrix<double, 6, 1>> velocity;
+	Velocities velocity;
 	for (const Body& body : free.bodies) {
 		velocity.emplace_back();
 		velocity.back() << body.velocity, body.angularVelocity;
@@ -57,6 +62,13 @@ inline double residual(const GrainProblem& free, const GrainProblem& solved)
 		velocity[c.body1] -= inverseMassMatrix(free.bodies[c.body1]) * lever(c.arm1) * c.impulse;
 		velocity[c.body2] += inverseMassMatrix(free.bodies[c.body2]) * lever(c.arm2) * c.impulse;
 	}
+	return velocity;
+}
+
+/// Arguments as those of velocities().
+inline double residual(const GrainProblem& free, const GrainProblem& solved)
+{
+	const Velocities velocity = velocities(free, solved);
 	// The mean field: L changes by the symmetric part of the moment over its inertia, within its limit.
 	Matrix3 L = Matrix3::Zero();
 	if (free.meanField) {
@@ -85,6 +97,50 @@ inline double residual(const GrainProblem& free, const GrainProblem& solved)
 		below += c.impulse.dot(W * c.impulse);
 	}
 	return above == 0 ? 0 : below > 0 ? std::sqrt(above / below) : 1;
+}
+
+/// Two solutions of one problem, the contacts in any order, by what their residuals leave open: kinetic energy of the difference of their velocities.
+struct Agreement {
+	double energy = 0; ///< what it is
+	double bound = 0;  ///< what it may be
+};
+
+/// The bound follows from the definition of the residual (NaturalMap.hpp). Of contact c let p = r - F be the projection of z = r - V / W_nn with
+/// V = u + mu |u_t| n. Since z - p = F - V / W_nn is normal to the cone at p, for two solutions (p1 - p2).(z1 - p1 - z2 + p2) >= 0. Times W_nn and
+/// summed, with D a difference of both and E the energy sought,
+///
+///     2 E = sum Dr.Du <= sum W_nn Dp.DF + DF.Du = sum W_nn (Dr - DF).DF + DF.Du <= |DF| (|Dr| + |DF| + |Du|')
+///
+/// where |x|^2 = sum W_nn x^2 and |u|'^2 = sum u^2 / W_nn. A residual below the tolerance is |F| <= tolerance |r|, and |Dr| <= |r1| + |r2| is all
+/// that is known of impulses that need not be unique. So far without friction; F and r have normal components only, for which the norm of the
+/// residual is this one. With friction the left side has the term mu sum Dr_n D|u_t| besides, which may be negative: there may be several velocities.
+/// A test that asserts the bound with friction says that its problem has one; |r| is then taken with all of W_cc, which makes it no smaller for
+/// balls.
+inline Agreement agreement(const GrainProblem& free, const GrainProblem& one, const GrainProblem& two, double tolerance)
+{
+	Velocities difference = velocities(free, one);
+	const Velocities other = velocities(free, two);
+	Agreement result;
+	for (std::size_t i = 0; i < difference.size(); ++i) {
+		difference[i] -= other[i];
+		const auto twist = difference[i];
+		for (int k = 0; k < 3; ++k)
+			if (free.bodies[i].inverseMass[k] > 0) result.energy += 0.5 * twist[k] * twist[k] / free.bodies[i].inverseMass[k];
+		if (free.bodies[i].inverseInertia.determinant() > 0)
+			result.energy += 0.5 * twist.tail<3>().dot(free.bodies[i].inverseInertia.inverse() * twist.tail<3>());
+	}
+	double size1 = 0, size2 = 0, speeds = 0;
+	for (const Contact& c : one.contacts) {
+		const Matrix3 W = delassus(free, c);
+		const double Wnn = c.normal.dot(W * c.normal);
+		size1 += c.impulse.dot(W * c.impulse);
+		if (Wnn > 0)
+			speeds += (lever(c.arm2).transpose() * difference[c.body2] - lever(c.arm1).transpose() * difference[c.body1]).squaredNorm() / Wnn;
+	}
+	for (const Contact& c : two.contacts) size2 += c.impulse.dot(delassus(free, c) * c.impulse);
+	const double impulses = std::sqrt(size1) + std::sqrt(size2);
+	result.bound = 0.5 * tolerance * impulses * ((1 + tolerance) * impulses + std::sqrt(speeds));
+	return result;
 }
 
 } // namespace contactdynamics::independent

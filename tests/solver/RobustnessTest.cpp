@@ -113,17 +113,21 @@ TEST_P(GrainRobustness, DegenerateProblemsEndWithATruthfulStatus)
 
 TEST(Robustness, HardFrictionEndsTruthfully)
 {
-	// Dense random heaps with mu = 1: every sweep-based method that was tried stalls on some of them.
+	// Dense random heaps with mu = 1: every sweep-based method that was tried stalls on some of them. No bound on the residual follows from anything
+	// then, but the best point is returned, so what momentum does in a thousand sweeps must not lose what plain ones have after a tenth.
 	SignoriniCoulombSolver solver;
-	SolverOptions options;
-	options.tolerance = 1e-8;
+	SolverOptions options, tenth;
+	options.tolerance = tenth.tolerance = 1e-8;
+	tenth.maxIterations = options.maxIterations / 10;
+	tenth.acceleration = Acceleration::none;
 	for (unsigned seed = 0; seed < 10; ++seed) {
 		GrainProblem problem = scenes::heap(5, seed, 1);
 		const GrainProblem free = problem;
 		const SolveReport report = solver.solve(problem, options);
 		EXPECT_EQ(report.status == SolveStatus::converged, report.residual <= 1e-8);
 		EXPECT_NEAR(report.residual, independent::residual(free, problem), 1e-6 * report.residual);
-		EXPECT_LT(report.residual, 0.05);
+		GrainProblem plain = free;
+		EXPECT_LE(report.residual, solver.solve(plain, tenth).residual) << seed;
 	}
 }
 

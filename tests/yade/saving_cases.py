@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 from yade import O, Vector3
 
+from halves import Halves
 from scenes import box, cd, contacts, dumbbell, equip, grain, material, state, steps
 
 FIRST, SECOND = 120, 60
@@ -71,33 +72,5 @@ def numbers() -> str:
     return "\n".join(lines) + "\n"
 
 
-def straight(result: str) -> None:
-    """The whole run."""
-    build()
-    steps(FIRST + SECOND)
-    _write(result)
-
-
-def until_half(scene: str) -> None:
-    """The first part, saved."""
-    build()
-    steps(FIRST)
-    O.save(scene)
-
-
-def from_half(scene: str, result: str) -> None:
-    """The second part, from a file."""
-    import contactdynamics  # noqa: F401  (a script that only loads a scene needs the classes)
-
-    O.load(scene)
-    steps(SECOND)
-    _write(result)
-
-
-def _write(result: str) -> None:
-    assert O.iter == FIRST + SECOND
-    text = numbers()
-    # More than 100 lines of contacts, or the comparison would say little.
-    assert text.count("sliding") + text.count("sticking") > 100, "the scene has too few contacts to tell anything"
-    with open(result, "w") as file:
-        file.write(text)
+_halves = Halves(build, numbers, FIRST, SECOND, fewest=100)
+straight, until_half, from_half = _halves.straight, _halves.until_half, _halves.from_half

@@ -10,7 +10,7 @@ import pytest
 from yade import O, Quaternion, Vector3, utils
 
 from distances import nearest_on_box, nearest_on_triangle
-from scenes import active, box, cd, contact, equip, floor, grain, material, rotation, state, steps, vec
+from scenes import EPS, active, box, cd, contact, equip, floor, grain, material, rotation, state, steps, vec
 
 H = 1e-3
 TRIANGLE = np.array([[0.0, 0, 0], [6, 1, 0.5], [1, 5, 1]])
@@ -89,14 +89,34 @@ def test_sphere_wall(gap: float, side: int, axis: int) -> None:
     check(target, approach(target, nearest, direction, gap), gap, direction, nearest)
 
 
-@pytest.mark.parametrize("sense, side, seen", [(1, 1, True), (-1, -1, True)])
+@pytest.mark.parametrize("sense, side, seen", [(1, 1, True), (-1, -1, True), (1, -1, False), (-1, 1, False)])
 def test_sphere_wall_with_one_side(sense: int, side: int, seen: bool) -> None:
-    """A wall with a sense holds what is on that side."""
+    """A wall with a sense holds what is on that side; a sphere wholly behind it is no candidate, however fast it comes, and flies on."""
     material()
     target = wall(0, 2, sense)
     nearest, direction = np.zeros(3), np.array([0.0, 0, side])
     equip(H, gravity=(0, 0, 0))
-    check(target, approach(target, nearest, direction, 0.1), 0.1, direction, nearest)
+    found = ball, i, _ = approach(target, nearest, direction, 0.1)
+    if seen:
+        check(target, found, 0.1, direction, nearest)
+    else:
+        assert i is None and cd().contacts == 0
+        assert vec(state(ball).vel) == pytest.approx(-direction * 2 * 0.1 / H, abs=0)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_sphere_partly_through_a_wall_with_one_side(sense: int) -> None:
+    """The centre is behind, but not all of the sphere: the contact pushes to the side that the wall acts on, out of an overlap of 0.9 diameters."""
+    material()
+    target = wall(0, 2, sense)
+    direction = np.array([0.0, 0, sense])
+    ball = grain(-0.4 * direction, radius=0.5, velocity=-direction)
+    equip(H, gravity=(0, 0, 0), repairRate=0)
+    O.step()
+    i = contact(target, ball)
+    assert vec(i.geom.normal) == pytest.approx(direction, abs=0)
+    assert i.phys.gap == pytest.approx(-0.9, abs=1e-13)
+    assert vec(state(ball).vel) == pytest.approx([0, 0, 0], abs=2 * EPS)
 
 
 PLACES = {

@@ -11,7 +11,7 @@ from yade import FrictMat, O, PolyhedraMat, Quaternion, Vector3, polyhedra_utils
 
 from blocks import block, corners, polyhedron
 from contactdynamics import *  # noqa: F403
-from scenes import G, box, cd, contact, contacts, equip, floor, grain, isolated, law, material, state, steps, vec
+from scenes import EPS, G, box, cd, contact, contacts, engine, equip, floor, grain, isolated, law, material, state, steps, vec
 
 H = 1e-3
 TURN = Quaternion((0.3, 1, 0.2), 0.4)
@@ -152,15 +152,32 @@ def test_sums_and_readers() -> None:
 
 
 def test_assigned_impulse_is_shared() -> None:
+    """Each of the four points starts the solve with a quarter.
+
+    Four normal forces at the corners of a square are not unique: + - + - around it adds neither force nor moment, so that any share of that is a
+    solution, and the solve keeps the one it starts from. The points are given an uneven solution, then the weight is doubled and the impulse that
+    bears it assigned: only quarters of that are a solution at once, and all four are equal only if the uneven start has been given up.
+    """
     material()
     base, cube = floor(10), block((0, 0, 0.5))
-    equip(H, tolerance=1e-6)
+    equip(H, gravity=(0, 0, 0), tolerance=1e-6)
     O.step()
+    engine("NewtonIntegrator").gravity = Vector3(0, 0, -G)
     found = contact(base, cube)
-    found.phys.impulse = Vector3(0, 0, 4) if found.id2 == cube else Vector3(0, 0, -4)
-    cd().maxIterations = 1
+    sign, weight = 1 if found.id2 == cube else -1, G * state(cube).mass
+    uneven = [0.25 * H * weight * (1.6 if point[0] * point[1] > 0 else 0.4) for point in found.geom.points]
+    for point, share in zip(found.phys.pointPhys(), uneven):
+        point.impulse = Vector3(0, 0, sign * share)
     O.step()
-    assert sum(abs(p[2]) for p in found.phys.pointImpulses) == pytest.approx(G * H * state(cube).mass, rel=0.5)
+    # Round-off: sums of twelve components that are differences of velocities of the size H g.
+    exact = 100 * EPS * H * weight
+    assert [sign * p[2] for p in found.phys.pointImpulses] == pytest.approx(uneven, abs=exact), "or an uneven share is no start that stays"
+    O.forces.setPermF(cube, Vector3(0, 0, -weight))
+    found.phys.impulse = Vector3(0, 0, sign * 2 * H * weight)
+    O.step()
+    assert cd().iterations <= 1
+    for p in found.phys.pointImpulses:
+        assert vec(p) == pytest.approx([0, 0, sign * 0.5 * H * weight], abs=exact)
 
 
 def test_restitution_acts_at_each_point() -> None:

@@ -318,3 +318,19 @@ def test_stress_and_fabric_of_yade_read_the_contacts() -> None:
     assert utils.unbalancedForce() < 1e-6
     assert utils.fabricTensor()[0][2, 2] == pytest.approx(1, rel=1e-12)
     assert math.isfinite(utils.kineticEnergy())
+
+
+@pytest.mark.parametrize("height", [0, 1e-13, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3])
+def test_balls_in_guides_side_by_side_do_not_wedge(height: float) -> None:
+    """Their common normal has a component of height / 2 along the guides: of 1e-5 and less nothing comes, with more of it the gap opens and closes."""
+    material()
+    floor()
+    balls = [grain((0, 0, 1)), grain((2, 0, 1 + height))]
+    for ball in balls:
+        state(ball).blockedDOFs = "xyXYZ"
+    equip(1e-2, tolerance=1e-10, onNonConvergence="raise")
+    steps(20)
+    weight = state(balls[0]).mass * G
+    for ball in balls:
+        assert abs(state(ball).vel[2]) < 1e-10 and state(ball).pos[2] == pytest.approx(1, abs=1e-9)
+        assert contact(0, ball).phys.normalForce[2] == pytest.approx(weight, rel=1e-9)

@@ -41,12 +41,29 @@ def test_step_of_a_falling_ball() -> None:
         assert np.linalg.norm(vec(state(ball).pos) - before) == pytest.approx(0.1, rel=1e-12)
 
 
-def test_rotation_and_cell() -> None:
+def test_step_of_a_turning_ball() -> None:
+    """h omega = maxRotation."""
     material()
     grain((0, 0, 0), spin=(0, 0, 20))
     stepper = _equip(maxRotation=0.3)
     O.step()
     assert O.dt == pytest.approx(0.3 / 20, rel=4 * EPS) and stepper.limitedBy == "rotation"
+
+
+@pytest.mark.parametrize("bounds, largest, limit", [({"maxRotation": 0.1}, 0.1, "rotation"), ({"maxDisplacement": 0.2}, 0.2, "displacement")])
+def test_step_in_a_cell_that_deforms(bounds: dict, largest: float, limit: str) -> None:
+    """h |velGrad| = maxRotation, and h |velGrad| r = maxDisplacement r; a ball that only goes with the cell has no speed of its own."""
+    O.periodic = True
+    O.cell.setBox(10, 10, 10)
+    O.cell.velGrad = Matrix3(-3, 4, 0, 0, 0, 0, 0, 0, 12)  # its norm is 13
+    material()
+    ball = grain((5, 5, 5), radius=0.5)
+    stepper = _equip(growth=1e9, **bounds)
+    O.step()  # at the end of it YADE puts the rate in force
+    state(ball).vel = O.cell.velGrad * state(ball).pos
+    O.step()
+    # The ball goes with the cell but for the round-off of its 60 m/s, beside the 6.5 m/s of strain over a radius.
+    assert O.dt == pytest.approx(largest / 13, rel=2 * 60 / 6.5 * EPS) and stepper.limitedBy == limit
 
 
 def test_cell_under_stress_takes_no_step_too_far() -> None:
