@@ -75,13 +75,15 @@ void BODY_ADVANCE(BodyState* now, BodyState* start, BodyState* direction, std::s
 		store(start, next);
 		store(now, next);
 	};
-	constexpr std::size_t ahead = 8; // bodies
+	// Beyond the last body, too: there the next block may begin. As a number, because a pointer must not go there.
+	const auto prefetch = [](const BodyState* body) {
+		constexpr std::size_t ahead = 8; // bodies
+		__builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(body) + ahead * sizeof(BodyState)), 1);
+	};
 	for (std::size_t i = 0; i < count; ++i) {
-		if (i + ahead < count) {
-			__builtin_prefetch(now + i + ahead, 1);
-			__builtin_prefetch(start + i + ahead, 1);
-			__builtin_prefetch(direction + i + ahead, 1);
-		}
+		prefetch(now + i);
+		prefetch(start + i);
+		prefetch(direction + i);
 		advance(now[i].velocity, start[i].velocity, direction[i].velocity);
 		advance(now[i].angularVelocity, start[i].angularVelocity, direction[i].angularVelocity);
 	}
