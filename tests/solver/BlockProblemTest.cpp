@@ -24,7 +24,8 @@ GrainProblem diskHeap(int side, unsigned seed, double friction)
 	std::vector<Vector3> centre(1);
 	std::vector<double> radius(1);
 	for (int i = 0; i < side * side; ++i) {
-		centre.push_back(Vector3(i % side + 0.1 * normal(random), 0, i / side + 0.1 * normal(random)));
+		const int column = i % side, row = i / side;
+		centre.push_back(Vector3(column + 0.1 * normal(random), 0, row + 0.1 * normal(random)));
 		radius.push_back(0.4 + 0.15 * uniform(random));
 		problem.bodies.push_back(scenes::ball(4 * std::pow(radius.back(), 3), radius.back(), {0.2 * normal(random), 0, 0.2 * normal(random) - 1},
 											  {0, normal(random), 0}));
