@@ -265,9 +265,9 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 				  (contact.ball || link.phys->kn > 0 || movesApart(contact));
 }
 
-/// Whether an impulse along the normal moves the bodies. Not where they are held along it but for round-off, such as two balls side by side whose
-/// sideways motion is blocked: huge impulses would make up for directions that are right to the last digits only, and friction would wedge the balls.
-/// In a step the gap changes by less than 1e-5 of the way then.
+/// Whether an impulse along the normal moves the bodies, or they are held along it for good. Not where they are held but for round-off, such as two
+/// balls side by side whose sideways motion is blocked: huge impulses would make up for directions that are right to the last digits only, and
+/// friction would wedge the balls. In a step the gap changes by less than 1e-5 of the way then.
 bool ContactDynamicsStep::movesApart(const contactdynamics::Contact& contact) const
 {
 	constexpr Real sineSquared = 1e-10;
@@ -279,16 +279,24 @@ bool ContactDynamicsStep::movesApart(const contactdynamics::Contact& contact) co
 		along += contact.normal.dot(body.inverseMass.cwiseProduct(contact.normal)) + turning.dot(body.inverseInertia * turning);
 		most += body.inverseMass.maxCoeff() + body.inverseInertia.trace() * arm.squaredNorm();
 	}
-	return problem.meanField || along > sineSquared * most;
+	return problem.meanField || along == 0 || along > sineSquared * most;
 }
 
 /// A body outside NewtonIntegrator.mask stays where it is, whatever its velocity says; along its surface that velocity acts, as that of a conveyor
 /// belt.
+/// @param arm  from the position of the body, not of its clump
 Vector3r ContactDynamicsStep::beltVelocity(const BodyView& view, const Vector3r& arm, const Vector3r& normal) const
 {
 	if (motions[view.index].moved) return Vector3r::Zero();
-	const Vector3r velocity = view.state->vel + view.state->angVel.cross(arm);
+	const State& whole = *views[idOfIndex[view.index]].state; // the members of a clump that YADE does not move have velocities of their own
+	const Vector3r velocity = whole.vel + whole.angVel.cross(arm + view.state->pos - whole.pos);
 	return velocity - velocity.dot(normal) * normal;
+}
+
+/// Likewise its turning [rad/s].
+Vector3r ContactDynamicsStep::beltTurning(int index) const
+{
+	return motions[index].moved ? Vector3r(Vector3r::Zero()) : views[idOfIndex[index]].state->angVel;
 }
 
 void ContactDynamicsStep::requireUsable(const Link& link, const contactdynamics::Contact& contact) const
@@ -377,7 +385,8 @@ void ContactDynamicsStep::shiftContacts(Real warmStart)
 		if (link.plain) continue;
 		const contactdynamics::Contact& contact = problem.contacts[i];
 		shifted.shift(problem, static_cast<int>(i), *link.phys, {link.gap, velocityAtStart(contact), forecast(link, contact), link.swapped});
-		if (link.phys->rollingArm > 0 || link.phys->twistingArm > 0) rolling.add(static_cast<int>(i), *link.phys, link.swapped, warmStart);
+		if (link.phys->rollingArm > 0 || link.phys->twistingArm > 0)
+			rolling.add(static_cast<int>(i), *link.phys, link.swapped, warmStart, beltTurning(contact.body2) - beltTurning(contact.body1));
 	}
 }
 

@@ -116,6 +116,7 @@ private:
 	void describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const;
 	bool movesApart(const contactdynamics::Contact& contact) const;
 	Vector3r beltVelocity(const BodyView& view, const Vector3r& arm, const Vector3r& normal) const;
+	Vector3r beltTurning(int index) const;
 	void requireUsable(const Link& link, const contactdynamics::Contact& contact) const;
 	bool forecast(const Link& link, const contactdynamics::Contact& contact) const;
 	Twist atStart(int index) const;

@@ -79,11 +79,16 @@ void ContactDynamicsStep::trackEnergy(Scene& scene)
 		energy.add(*links[i].phys, contact.normal, contact.impulse, start, contact.relativeVelocity,
 				   links[i].gap + 0.5 * h * contact.normal.dot(contact.relativeVelocity), shifted.isImpact(static_cast<int>(i)), bonded[i]);
 		energy.addStretch(*links[i].phys, h);
+		const Link& link = links[i];
+		const BodyView &view1 = views[link.id1], &view2 = views[link.id2];
+		const Vector3r belt = beltVelocity(view2, link.arm2, contact.normal) - beltVelocity(view1, link.arm1, contact.normal);
+		energy.addBoundary((link.swapped ? -1 : 1) * contact.impulse.dot(belt));
 	}
 	for (const RollingFriction::Row& row : rolling.all()) {
 		const int one = problem.contacts[row.contact].body1, two = problem.contacts[row.contact].body2;
 		const auto spin = [&](int index) { return Vector3r(0.5 * (atStart(index).angularVelocity + problem.bodies[index].angularVelocity)); };
-		energy.addRolling(row.impulse, spin(two) - spin(one));
+		energy.addRolling(row.impulse, spin(two) - spin(one) + row.drive);
+		energy.addBoundary(row.impulse.dot(row.drive));
 	}
 	for (std::size_t id = 0; id < loads.size(); id++) { // loads refer to the positions of the bodies, those of clump members to their own
 		const BodyView& view = views[id];

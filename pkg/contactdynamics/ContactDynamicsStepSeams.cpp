@@ -13,7 +13,7 @@
 
 namespace yade {
 
-/// A sphere that rolls over a seam takes the start of the solve along: the impulse goes from the contact that is left to the one that follows it.
+/// A sphere that rolls over a seam takes the start of the solve along: what the contact that is left remembers goes to the one that follows it.
 void ContactDynamicsStep::passOnImpulses(Link* const* group, const std::vector<SurfaceContact>& contacts) const
 {
 	const auto sphereIsFirst = [&](std::size_t i) { return views[group[i]->id1].radius > 0; };
@@ -24,7 +24,13 @@ void ContactDynamicsStep::passOnImpulses(Link* const* group, const std::vector<S
 		for (std::size_t to = 0; to < contacts.size(); to++) {
 			if (contacts[to].role == SurfaceContact::Role::left || group[to]->phys->impulse != Vector3r::Zero()) continue;
 			if (contacts[to].normal.dot(contacts[from].normal) < alike) continue;
-			group[to]->phys->impulse = (sphereIsFirst(from) == sphereIsFirst(to) ? 1 : -1) * impulse;
+			const int sign = sphereIsFirst(from) == sphereIsFirst(to) ? 1 : -1;
+			const ContactDynamicsPhys& left = *group[from]->phys;
+			ContactDynamicsPhys& follows = *group[to]->phys;
+			follows.impulse = sign * impulse;
+			follows.torqueImpulse = sign * left.torqueImpulse;
+			follows.stretch = sign * left.stretch;
+			follows.stretchRate = sign * left.stretchRate;
 			break;
 		}
 		impulse = Vector3r::Zero();

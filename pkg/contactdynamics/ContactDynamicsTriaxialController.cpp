@@ -173,7 +173,7 @@ void ContactDynamicsTriaxialController::action()
 	if (!(wallMassInUse > 0))
 		throw std::runtime_error(
 				"ContactDynamicsTriaxialController.wallMass = 0: it cannot be taken from the bodies, because none is movable and has mass.");
-	if (referenceSize == Vector3r::Zero()) referenceSize = size;
+	if (referenceSize == Vector3r::Zero()) std::get<6>(admitted) = referenceSize = size;
 	for (int axis = 0; axis < 3; axis++) {
 		strain[axis] = std::log(size[axis] / referenceSize[axis]);
 		State& held = *wall(*scene, 2 * axis).state;

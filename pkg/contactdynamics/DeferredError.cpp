@@ -16,11 +16,17 @@ struct Report {
 	std::pair<int, int> ids;
 	std::string message;
 
-	/// A report of which no engine asked remains until then.
-	bool isOf(const Scene& scene) const { return owner.lock().get() == &scene && iter == scene.iter; }
+	/// A report of which no engine asked remains until then. A scene that is not the current one, but running still, is told by its address alone.
+	bool isOf(const Scene& scene) const { return (owner.empty() || owner.lock().get() == &scene) && iter == scene.iter; }
 };
 std::mutex reportsGuard;
 std::map<const Scene*, Report> reports; // almost always empty
+
+boost::weak_ptr<Scene> ownerOf(const Scene* scene)
+{
+	const shared_ptr<Scene>& current = Omega::instance().getScene();
+	return current.get() == scene ? boost::weak_ptr<Scene>(current) : boost::weak_ptr<Scene>();
+}
 } // namespace
 
 void DeferredError::report(const Scene* scene, int id1, int id2, const std::string& message)
@@ -29,7 +35,7 @@ void DeferredError::report(const Scene* scene, int id1, int id2, const std::stri
 	const std::pair<int, int> ids(id1, id2);
 	const auto known = reports.find(scene);
 	if (known == reports.end() || !known->second.isOf(*scene) || ids < known->second.ids)
-		reports[scene] = {Omega::instance().getScene(), scene->iter, ids, message};
+		reports[scene] = {ownerOf(scene), scene->iter, ids, message};
 }
 
 void DeferredError::raise(const Scene* scene)

@@ -29,7 +29,8 @@ bool Ig2_Box_Sphere_ScGeom_Proximity::go(const shared_ptr<Shape>& shape1, const 
 		gap = -depth - radius;
 	}
 	if (beyondReach(*scene, *interaction, gap, force) || lacksMaterial(*scene, *interaction)) return false;
-	return updateScGeom(*scene, interaction, state1, state2, shift2, {state1.pos + state1.ori * onBox, state1.ori * normal, gap, radius, radius});
+	return updateScGeom(*scene, interaction, state1, state2, shift2, {state1.pos + state1.ori * onBox, state1.ori * normal, gap, radius, radius},
+						!(distance > 0));
 }
 
 } // namespace yade

@@ -19,7 +19,7 @@ bool Ig2_Sphere_Sphere_ScGeom_Proximity::go(const shared_ptr<Shape>& shape1, con
 	if (beyondReach(*scene, *interaction, gap, force) || lacksMaterial(*scene, *interaction)) return false;
 	// Concentric spheres have no normal of their own; any fixed one is as good, and NaN is not.
 	const Vector3r normal = distance > 0 ? Vector3r(branch / distance) : Vector3r(Vector3r::UnitZ());
-	return updateScGeom(*scene, interaction, state1, state2, shift2, {state1.pos + r1 * normal, normal, gap, r1, r2}, true);
+	return updateScGeom(*scene, interaction, state1, state2, shift2, {state1.pos + r1 * normal, normal, gap, r1, r2}, distance > 0);
 }
 
 } // namespace yade

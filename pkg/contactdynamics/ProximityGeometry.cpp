@@ -31,7 +31,8 @@ bool updateScGeom(const Scene& scene, const shared_ptr<Interaction>& interaction
 	ScGeom& geom = static_cast<ScGeom&>(*interaction->geom);
 	const Vector3r before = geom.normal;
 	placeScGeom(*interaction, nearest);
-	geom.normal = before; // precompute() compares it with the new one
+	if (!Reach::softLawsAct(scene)) return true; // a tenth of InteractionLoop
+	geom.normal = before;						 // precompute() compares it with the new one
 	geom.precompute(state1, state2, &scene, interaction, nearest.normal, isNew, shift2, fixedArms);
 	return true;
 }

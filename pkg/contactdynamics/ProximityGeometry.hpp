@@ -26,7 +26,8 @@ void placeScGeom(Interaction& interaction, const Nearest& nearest);
 /// The same, made at the first call, with the increment of shear and the rotation of the contact since the last step, for soft laws that act beside
 /// Contact Dynamics. Returns true, the functor's answer.
 /// @param shift2     of body 2, where it is an image [m]
-/// @param fixedArms  of rotation, the radii whatever the gap, so that closed cycles leave no shear: as in YADE for two spheres and for one on a wall
+/// @param fixedArms  of rotation, the radii whatever the gap, so that closed cycles leave no shear: as in YADE for two spheres, one on a wall, one
+/// with its centre in a box
 bool updateScGeom(const Scene& scene, const shared_ptr<Interaction>& interaction, const State& state1, const State& state2, const Vector3r& shift2,
 				  const Nearest& nearest, bool fixedArms = false);
 

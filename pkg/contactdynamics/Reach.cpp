@@ -6,6 +6,7 @@
 #include "Gravity.hpp"
 #include <core/Body.hpp>
 #include <core/Cell.hpp>
+#include <core/InteractionLoop.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Facet.hpp>
@@ -45,6 +46,7 @@ struct Reaches {
 	const Scene* scene = nullptr;
 	long iter = 0;
 	Real dt = 0;
+	bool softLaws = false;
 	std::vector<Real> reach;						// by body id [m]
 	std::unique_ptr<std::atomic<bool>[]> boundMade; // by body id, in this pass of the collider
 
@@ -186,8 +188,19 @@ std::vector<Real> spreadReaches(const Scene& scene, const Surroundings& around)
 	return reach;
 }
 
+/// Whether an InteractionLoop of the scene has a law that is not ours.
+bool hasSoftLaws(const Scene& scene)
+{
+	for (const auto& engine : scene.engines)
+		if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
+			for (const auto& law : loop->lawDispatcher->functors)
+				if (law->get2DFunctorType2() != "ContactDynamicsPhys") return true;
+	return false;
+}
+
 /// Those of the scene's present step, worked out if they are not known or are `outdated`, which may be null.
-const Reaches& reachesOf(const Scene& scene, const Reaches* outdated)
+/// @param passBegins  the collider asks; otherwise what is worked out now counts as outdated when it does
+const Reaches& reachesOf(const Scene& scene, bool passBegins, const Reaches* outdated = nullptr)
 {
 	const auto usable = [&](const Reaches* its) { return its && its != outdated && its->isOf(scene); };
 	if (const Reaches* its = known.load(std::memory_order_acquire); usable(its)) return *its;
@@ -198,9 +211,10 @@ const Reaches& reachesOf(const Scene& scene, const Reaches* outdated)
 	fresh.scene = &scene;
 	fresh.iter = scene.iter;
 	fresh.dt = scene.dt;
+	fresh.softLaws = hasSoftLaws(scene);
 	fresh.reach = spreadReaches(scene, measureSpeeds(scene));
 	if (!fresh.boundMade || before != fresh.reach.size()) fresh.boundMade.reset(new std::atomic<bool>[fresh.reach.size()]);
-	for (std::size_t id = 0; id < fresh.reach.size(); ++id) fresh.boundMade[id].store(false, std::memory_order_relaxed);
+	for (std::size_t id = 0; id < fresh.reach.size(); ++id) fresh.boundMade[id].store(!passBegins, std::memory_order_relaxed);
 	known.store(&fresh, std::memory_order_release);
 	return fresh;
 }
@@ -209,9 +223,9 @@ const Reaches& reachesOf(const Scene& scene, const Reaches* outdated)
 double Reach::ofBound(const Scene& scene, int id)
 {
 	if (!(scene.dt > 0)) return 0;
-	const Reaches* its = &reachesOf(scene, nullptr);
+	const Reaches* its = &reachesOf(scene, true);
 	if (its->boundMade[id].exchange(true, std::memory_order_relaxed)) {
-		its = &reachesOf(scene, its);
+		its = &reachesOf(scene, true, its);
 		its->boundMade[id].store(true, std::memory_order_relaxed);
 	}
 	return its->reach[id];
@@ -220,9 +234,11 @@ double Reach::ofBound(const Scene& scene, int id)
 double Reach::ofPair(const Scene& scene, int id1, int id2)
 {
 	if (!(scene.dt > 0)) return 0;
-	const Reaches& its = reachesOf(scene, nullptr);
+	const Reaches& its = reachesOf(scene, false);
 	return its.reach[id1] + its.reach[id2];
 }
+
+bool Reach::softLawsAct(const Scene& scene) { return !(scene.dt > 0) || reachesOf(scene, false).softLaws; }
 
 void Reach::forget() { known.store(nullptr); }
 

@@ -22,6 +22,8 @@ namespace Reach {
 double ofBound(const Scene& scene, int id);
 /// Sum of the reaches of two bodies of `scene` [m].
 double ofPair(const Scene& scene, int id1, int id2);
+/// Whether other laws act beside ours, which need to know of a contact how it is sheared. Worked out together with the reaches.
+bool softLawsAct(const Scene& scene);
 /// The reaches are worked out once a step; this is called when the step is over (also after an error), and after what a user does to single pairs,
 /// because positions and velocities may be changed by hand before the next pass.
 void forget();

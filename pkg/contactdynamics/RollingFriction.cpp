@@ -10,9 +10,9 @@ namespace {
 constexpr int mostPasses = 100;
 } // namespace
 
-void RollingFriction::add(int contact, ContactDynamicsPhys& phys, bool swapped, Real warmStart)
+void RollingFriction::add(int contact, ContactDynamicsPhys& phys, bool swapped, Real warmStart, const Vector3r& drive)
 {
-	rows.push_back({contact, &phys, swapped, (swapped ? -warmStart : warmStart) * phys.torqueImpulse});
+	rows.push_back({contact, &phys, swapped, (swapped ? -warmStart : warmStart) * phys.torqueImpulse, drive});
 }
 
 /// One sweep over the rows with the velocities and normal impulses of the problem. @return change of the torques over the largest ones that the
@@ -33,7 +33,7 @@ Real RollingFriction::improve(const contactdynamics::GrainProblem& problem)
 		if (!(largest > 0)) continue;
 		const Vector3r& n = contact.normal;
 		const Real normal = std::max(Real(0), contact.impulse.dot(n));
-		const Vector3r trial = row.impulse - (spin[contact.body2] - spin[contact.body1]) / largest;
+		const Vector3r trial = row.impulse - (spin[contact.body2] - spin[contact.body1] + row.drive) / largest;
 		const Real twist = std::min(std::max(trial.dot(n), -row.phys->twistingArm * normal), row.phys->twistingArm * normal);
 		Vector3r rolling = trial - trial.dot(n) * n;
 		const Real limit = row.phys->rollingArm * normal, length = rolling.norm();

@@ -20,7 +20,8 @@ class RollingFriction {
 public:
 	void clear() { rows.clear(); }
 	bool empty() const { return rows.empty(); }
-	void add(int contact, ContactDynamicsPhys& phys, bool swapped, Real warmStart);
+	/// @param drive  angular velocity of body 2 relative to body 1 that comes from bodies which turn, but are not moved [rad/s]
+	void add(int contact, ContactDynamicsPhys& phys, bool swapped, Real warmStart, const Vector3r& drive);
 
 	contactdynamics::SolveReport solve(contactdynamics::SignoriniCoulombSolver& solver, contactdynamics::GrainProblem& problem,
 									   const contactdynamics::SolverOptions& options);
@@ -33,6 +34,7 @@ public:
 		ContactDynamicsPhys* phys;
 		bool swapped;
 		Vector3r impulse; // on body 2 of the contact, global axes [N m s]
+		Vector3r drive;
 	};
 	const std::vector<Row>& all() const { return rows; }
 

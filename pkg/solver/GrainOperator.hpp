@@ -14,7 +14,7 @@
 
 namespace contactdynamics {
 
-/// W = H^T M^-1 H of a collection of rigid bodies, matrix-free, as signoriniCoulombLoop() uses it, with the work space of a solve.
+/// W = H^T M^-1 H of a collection of rigid bodies, matrix-free, as guardedLoop() uses it, with the work space of a solve.
 ///
 /// A candidate far from closing costs next to nothing: it sleeps, that is, no sweep visits it; mend() looks at all sleepers and wakes those that
 /// close. Awake contacts are laid out by colour in packs of four; woken ones are appended as colours of their own, and now and then the layout is

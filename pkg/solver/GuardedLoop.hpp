@@ -34,17 +34,23 @@ template <class Operator, class MakeRival> GuardedResult guardedLoop(Operator& o
 	constexpr int round = 64; // sweeps before the other one has its turn
 	Trajectory<Operator> own(op, options, true);
 	std::optional<Trajectory<Operator>> rival;
-	for (int done = 0; done < most;) {
-		if (!rival && own.hasStalled() && own.sweeps() >= lead && done < lastWithMomentum) rival.emplace(makeRival(), options, false);
+	int done = 0;
+	const auto advance = [&](Trajectory<Operator>& runner) {
+		++done;
+		if (runner.advance()) return true;
+		if (done > most / 2) runner.keepIfBest();
+		return false;
+	};
+	while (done < lastWithMomentum) {
+		if (!rival && own.hasStalled() && own.sweeps() >= lead) rival.emplace(makeRival(), options, false);
 		const bool byRival = rival && rival->sweeps() < own.sweeps() + round;
 		Trajectory<Operator>& runner = byRival ? *rival : own;
-		for (int i = rival ? round : 1; i > 0 && done < most; --i) {
-			if (done == lastWithMomentum) own.endPlainly();
-			++done;
-			if (runner.advance()) return {{done, runner.residual()}, byRival};
-			if (done > most / 2) runner.keepIfBest();
-		}
+		for (int i = rival ? round : 1; i > 0 && done < lastWithMomentum; --i)
+			if (advance(runner)) return {{done, runner.residual()}, byRival};
 	}
+	own.endPlainly();
+	while (done < most)
+		if (advance(own)) return {{done, own.residual()}, false};
 	const double residual = own.certifyBest();
 	if (rival && rival->certifyBest() < residual) return {{most, rival->residual()}, true};
 	return {{most, residual}, false};

@@ -79,6 +79,7 @@ public:
 		if (!(kept2 < relative2)) return;
 		op.exchangeKept();
 		op.keep(); // it stays the best one
+		relative2 = kept2;
 	}
 
 	/// Residual of the better one of the present point and the one kept, where the operator is then.

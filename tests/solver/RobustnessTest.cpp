@@ -114,7 +114,7 @@ TEST_P(GrainRobustness, DegenerateProblemsEndWithATruthfulStatus)
 TEST(Robustness, HardFrictionEndsTruthfully)
 {
 	// Dense random heaps with mu = 1: every sweep-based method that was tried stalls on some of them. No bound on the residual follows from anything
-	// then, but the best point is returned, so what momentum does in a thousand sweeps must not lose what plain ones have after a tenth.
+	// then. That a thousand sweeps with momentum end better than a hundred plain ones is what users are promised, not a theorem.
 	SignoriniCoulombSolver solver;
 	SolverOptions options, tenth;
 	options.tolerance = tenth.tolerance = 1e-8;

@@ -27,19 +27,25 @@ def _run_collider() -> None:
     engine("InsertionSortCollider")()
 
 
+def _run_loop() -> None:
+    engine("InteractionLoop")()
+
+
 def _make_pair() -> None:
     first = _cube(Vector3(50, 0, 5))
     utils.createInteraction(first, _cube(Vector3(53, 0, 5)))
 
 
 @pytest.mark.parametrize("kind", ["box", "wall", "facet"])
-@pytest.mark.parametrize("look", [_run_collider, _make_pair])
+@pytest.mark.parametrize("look", [_run_collider, _run_loop, _make_pair])
 def test_velocity_set_after_a_look_at_the_candidates(look: Callable[[], None], kind: str) -> None:
     """The way of the coming step is that of the velocity now, also where the collider has run, or a pair was made, at this step before."""
     material()
     _target(kind)
     ball = grain((0.1, 0.1, 2))
+    grain((20, 0, 5)), grain((22.05, 0, 5))  # a pair for the loop to look at
     equip(H, gravity=(0, 0, 0))
+    steps(1)
     look()
     state(ball).vel = Vector3(0, 0, -FAST / H)
     steps(2)

@@ -18,7 +18,7 @@ from yade import (
     Vector3,
 )
 
-from scenes import G, box, cd, engine, equip, floor, grain, material, state, steps, vec
+from scenes import G, box, cd, contact, dumbbell, engine, equip, floor, grain, kinetic_energy, law, material, state, steps, vec
 from test_detection import _target, facet
 
 H = 1e-3
@@ -270,3 +270,39 @@ def test_turning_drum_outside_the_mask_drags() -> None:
     expected = np.cross([0, 0, 0.2], vec(state(ball).pos))
     # On its circle the ball needs 0.12 m/s2 of the 4.9 that friction gives; it has the velocity of the place it stood on at the start of the step.
     assert vec(state(ball).vel)[:2] == pytest.approx(expected[:2], abs=0.2 * 0.6 * 1e-3 * 1.1)
+
+
+@pytest.mark.parametrize("outside", [False, True])
+def test_energy_of_what_a_boundary_drags(outside: bool) -> None:
+    """The same ball on the same floor, which moves and turns or only has the velocity of that: kinetic energy and all terms balance."""
+    law(frictionAngle=0.4, rollingFriction=0.05, twistingFriction=0.05)
+    belt = floor(mask=5)
+    state(belt).vel, state(belt).angVel = Vector3(0.5, 0.2, 0), Vector3(0, 0, 0.7)
+    ball = grain((2, 0, 1), mask=3, spin=(0.3, 0, 0))
+    equip(H, tolerance=1e-12)
+    O.trackEnergy = True
+    if outside:
+        engine("NewtonIntegrator").mask = 2
+    start = kinetic_energy()
+    steps(100)
+    assert abs(state(ball).angVel[2]) > 0.05 and O.energy["contactBoundary"] < -0.01 * state(ball).mass
+    terms = sum(O.energy[name] for name in O.energy.keys() if name.startswith("contact"))
+    assert kinetic_energy() + terms - start == pytest.approx(0, abs=1e-11 * state(ball).mass)
+
+
+def test_clump_outside_the_mask_is_a_conveyor_belt() -> None:
+    """YADE leaves the velocities of its members alone; that of the clump counts, at the place of the contact."""
+    material(friction=0.5)
+    number, members = dumbbell([(-3, 0, -1), (3, 0, -1)], mask=5)
+    O.bodies[number].mask = 5
+    state(number).blockedDOFs = "xyzXYZ"
+    state(number).vel, state(number).angVel = Vector3(0, 0.5, 0), Vector3(0, 0, 0.1)
+    ball = grain((3, 0, 1), mask=3)
+    state(ball).blockedDOFs = "xXYZ"
+    equip(H, tolerance=1e-12)
+    engine("NewtonIntegrator").mask = 2
+    steps(1)
+    assert state(ball).vel[1] == pytest.approx(0.5 * G * H, rel=1e-9)
+    steps(20)
+    # At a contact that has come by what the ball went along with it, 0.8 * 20 H; its normal leans by half of that.
+    assert state(ball).vel[1] < 0.8 and contact(members[1], ball).phys.impulse.norm() > 0

@@ -252,3 +252,17 @@ def test_helpers_refuse() -> None:
         triaxial.shear(NAN)
     with pytest.raises(ValueError, match="stress"):
         triaxial.engines([0, 1, 2, 3, 4, 5], stress=1.0)
+
+
+def test_strain_goes_on_after_a_value_was_refused() -> None:
+    """The size that strain is measured from was taken from the scene in the first step; a refusal later puts nothing else back."""
+    cases.build()
+    steps(5)
+    c = controller()
+    before, strain = c.referenceSize, c.strain
+    assert before[0] > 0
+    with pytest.raises(ValueError):
+        c.wallMass = -2
+    assert c.referenceSize == before
+    steps(1)
+    assert c.referenceSize == before and (c.strain - strain).norm() < 0.1 * max(1e-3, strain.norm())
