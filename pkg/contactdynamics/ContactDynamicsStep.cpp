@@ -132,6 +132,7 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 			view.radius = sphere->radius;
 		}
 		view.fixed = motions[view.index].heldDOFs == State::DOF_ALL;
+		view.belt = !motions[view.index].moved;
 		view.ball = view.fixed || (view.radius > 0 && !view.member && isotropic(problem.bodies[view.index]));
 	});
 }
@@ -251,7 +252,8 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 		contact.arm2 = Vector3r::Zero();
 	}
 
-	contact.imageVelocity += beltVelocity(view2, link.arm2, contact.normal) - beltVelocity(view1, link.arm1, contact.normal);
+	if (view1.belt || view2.belt)
+		contact.imageVelocity += beltVelocity(view2, link.arm2, contact.normal) - beltVelocity(view1, link.arm1, contact.normal);
 
 	link.swapped = (link.point >= 0 || (view1.radius > 0 && view2.radius > 0)) && link.id1 > link.id2;
 	if (link.swapped) {
@@ -287,7 +289,7 @@ bool ContactDynamicsStep::movesApart(const contactdynamics::Contact& contact) co
 /// @param arm  from the position of the body, not of its clump
 Vector3r ContactDynamicsStep::beltVelocity(const BodyView& view, const Vector3r& arm, const Vector3r& normal) const
 {
-	if (motions[view.index].moved) return Vector3r::Zero();
+	if (!view.belt) return Vector3r::Zero();
 	const State& whole = *views[idOfIndex[view.index]].state; // the members of a clump that YADE does not move have velocities of their own
 	const Vector3r velocity = whole.vel + whole.angVel.cross(arm + view.state->pos - whole.pos);
 	return velocity - velocity.dot(normal) * normal;

@@ -72,6 +72,7 @@ private:
 		bool member = false;		  // of a clump
 		bool ball = false;			  // an impulse through the centre does not turn it, and all directions are alike
 		bool fixed = false;			  // no impulse moves it
+		bool belt = false;			  // nor its own velocity, see beltVelocity()
 	};
 	/// What links a contact of the problem with the scene. A pair of spheres enters the problem with the smaller id first, whatever order
 	/// YADE chose: that order may differ after O.load, and with it the last bits.
