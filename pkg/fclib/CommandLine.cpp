@@ -13,7 +13,7 @@ const char* const usage =
 solve  Solves each contact problem (FCLIB, HDF5) from zero impulses, and prints a table.
   --tolerance T        bound on the error at which to stop, > 0 (default 1e-4)
   --max-iterations N   sweeps allowed, >= 0 (default 100000)
-  --threads K          >= 1 (default 1)
+  --threads K          >= 1 (default 1); explicit blocks are swept in their order, by one thread whatever K is
   --acceleration A     none (plain nonlinear Gauss-Seidel) or momentum (default)
   --json OUT           also write the results as a list of {"problem", "dimension", "contacts", "tolerance", "iterations", "seconds", "error", "converged"}
   --write FOLDER       also write each problem, reduced to local form, with the solution found, to FOLDER/NAME.hdf5; refused where that is one of the

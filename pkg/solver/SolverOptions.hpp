@@ -15,7 +15,7 @@ struct SolverOptions {
 	Acceleration acceleration = Acceleration::momentum;
 	/// Newton steps where the sweeps stall, see BlockSolver.hpp: explicit block problems only, and not with Acceleration::none.
 	bool newtonFinish = true;
-	int threads = 1; ///< threads, >= 1 (the caller is one of them); the result does not depend on it, bit for bit
+	int threads = 1; ///< threads, >= 1 (the caller is one of them); the result does not depend on it, bit for bit. Block problems take one.
 };
 
 /// @throws std::invalid_argument  naming the option and its value
