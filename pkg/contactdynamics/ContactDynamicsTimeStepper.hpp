@@ -20,7 +20,7 @@ public:
 		"and does not slow the scene down by more than its own way requires. Impulses kept for the warm start are rescaled by the engine. \n\n"
 		"Stands behind :yref:`ForceResetter` and before the collider, which has to know the step to come (``contactdynamics.engines(timeStepper=True)``); behind the collider RuntimeError. If nothing moves and nothing accelerates, ``O.dt`` stays as it is. "
 		"Positions and velocities that are not finite are left to the engine, which names the body.",
-		((Real,maxDisplacement,0.25,Attr::triggerPostLoad,"Largest way of a body in a step, in radii of the smallest sphere or of the ball around the smallest block [-], > 0. The direction of contacts is taken at the start of the step, so this is also the angle by which a contact can be misjudged. Default 0.25."))
+		((Real,maxDisplacement,0.25,Attr::triggerPostLoad,"Largest way of a body in a step, in radii of the smallest sphere or of the ball inside the thinnest block [-], > 0. The direction of contacts is taken at the start of the step, so this is also the angle by which a contact can be misjudged. Default 0.25."))
 		((Real,maxRotation,0.5,Attr::triggerPostLoad,"Largest turn of a body in a step [rad], > 0; also the largest strain of the periodic cell in a step [-]. Default 0.5."))
 		((Real,proximityDistance,0,Attr::triggerPostLoad,"For functors with a fixed distance of detection: largest gap at which they make a contact [m], for YADE's spheres (interactionDetectionFactor − 1) times the sum of the two smallest radii. Two bodies then do not approach by more than that in a step. "
 			"0 (default): no such limit, the ``..._Proximity`` functors adapt themselves."))

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "LargestRates.hpp"
-#include "BodySize.hpp"
 #include "ContactDynamicsCellController.hpp"
 #include "ContactDynamicsTriaxialController.hpp"
+#include "ConvexShapes.hpp"
 #include "Gravity.hpp"
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
+#include <pkg/common/Sphere.hpp>
+#include <pkg/polyhedra/Polyhedra.hpp>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace yade {
 namespace {
@@ -16,11 +19,19 @@ void raise(Real& largest, Real value)
 	if (std::isfinite(value)) largest = std::max(largest, value);
 }
 
-/// Of a grain, or of a box that can move; other boxes are walls.
-Real blockRadius(const Body& body)
+/// Of a sphere the radius, of a polyhedron the distance of its nearest face, of a box that can move half of its thickness (other boxes are walls); 0
+/// for other shapes, and for those that the search for contacts refuses.
+Real innerRadius(const Body& body)
 {
-	const auto* box = body.isDynamic() || body.isClumpMember() ? dynamic_cast<const Box*>(body.shape.get()) : nullptr;
-	return box ? box->extents.norm() : grainRadius(body);
+	if (const auto* sphere = dynamic_cast<const Sphere*>(body.shape.get())) return sphere->radius;
+	if (const auto* box = dynamic_cast<const Box*>(body.shape.get())) return body.isDynamic() || body.isClumpMember() ? box->extents.minCoeff() : 0;
+	if (!dynamic_cast<const Polyhedra*>(body.shape.get())) return 0;
+	try {
+		const auto& faces = ConvexShapes::of(body.shape).faces;
+		return std::min_element(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.offset < b.offset; })->offset;
+	} catch (const std::invalid_argument&) {
+		return 0;
+	}
 }
 } // namespace
 
@@ -32,7 +43,7 @@ LargestRates::LargestRates(const Scene& scene)
 	const bool permForces = forces.getPermForceUsed();
 	for (const auto& body : *scene.bodies) {
 		const State& state = *body->state;
-		if (const Real radius = blockRadius(*body); radius > 0) smallestRadius = smallestRadius > 0 ? std::min(smallestRadius, radius) : radius;
+		if (const Real radius = innerRadius(*body); radius > 0) smallestRadius = smallestRadius > 0 ? std::min(smallestRadius, radius) : radius;
 		raise(speed, (scene.isPeriodic ? Vector3r(state.vel - scene.cell->velGrad * state.pos) : state.vel).norm());
 		raise(rotation, state.angVel.norm());
 		if (!body->isDynamic() || body->isClumpMember()) continue;

@@ -50,12 +50,23 @@ struct Reaches {
 	std::vector<Real> reach;						// by body id [m]
 	std::unique_ptr<std::atomic<bool>[]> boundMade; // by body id, in this pass of the collider
 
+	bool knows(int id) const { return static_cast<std::size_t>(id) < reach.size(); }
 	bool isOf(const Scene& asked) const { return scene == &asked && iter == asked.iter && dt == asked.dt && reach.size() == asked.bodies->size(); }
 };
 /// Two, because in a pass that begins, other threads may still read from those of before.
 Reaches buffers[2];							// written under `guard`
 std::atomic<const Reaches*> known{nullptr}; // one of the buffers
 std::mutex guard;
+
+/// The bodies with ids below `count`: more may be appended from outside while a run goes on in the background.
+std::vector<const Body*> firstBodies(const Scene& scene, std::size_t count)
+{
+	std::vector<const Body*> bodies;
+	bodies.reserve(count);
+	for (std::size_t id = 0; id < std::min(count, scene.bodies->size()); ++id)
+		if (const Body* body = (*scene.bodies)[static_cast<unsigned>(id)].get()) bodies.push_back(body);
+	return bodies;
+}
 
 /// Largest distance of a point of the surface from the body's position, for the part of its speed that comes from rotation.
 Real turningRadius(const Shape& shape)
@@ -101,10 +112,11 @@ Surroundings measureSpeeds(const Scene& scene)
 		if (const auto* box = dynamic_cast<const ContactDynamicsTriaxialController*>(engine.get()); box && !box->dead)
 			for (const auto& wall : box->outlook(scene)) driven[wall.wall] = wall.speed;
 	}
-	around.speed.assign(scene.bodies->size(), 0);
-	around.radius.assign(scene.bodies->size(), 0);
-	around.margin.assign(scene.bodies->size(), 0);
-	for (const auto& body : *scene.bodies) {
+	const std::size_t count = scene.bodies->size();
+	around.speed.assign(count, 0);
+	around.radius.assign(count, 0);
+	around.margin.assign(count, 0);
+	for (const auto& body : firstBodies(scene, around.speed.size())) {
 		if (body->isClump()) continue;
 		const int id = body->getId();
 		const Real radius = grainRadius(*body);
@@ -127,7 +139,7 @@ class SpeedGrid {
 public:
 	SpeedGrid(const Scene& scene, const Surroundings& around, Real edge_) : edge(edge_)
 	{
-		for (const auto& body : *scene.bodies) {
+		for (const auto& body : firstBodies(scene, around.speed.size())) {
 			if (around.radius[body->getId()] == 0 || !body->state->pos.allFinite()) continue;
 			Real& largest = cells[key(body->state->pos, {0, 0, 0})];
 			largest = std::max(largest, around.speed[body->getId()]);
@@ -168,19 +180,19 @@ std::vector<Real> spreadReaches(const Scene& scene, const Surroundings& around)
 	if (h * around.largestSpeed > slowStep * around.smallestRadius && !scene.isPeriodic) {
 		const Real largestRadius = *std::max_element(around.radius.begin(), around.radius.end());
 		const SpeedGrid grid(scene, around, flightsPerCell * (h * around.largestSpeed + 2 * largestRadius));
-		for (const auto& body : *scene.bodies) {
+		for (const auto& body : firstBodies(scene, around.speed.size())) {
 			const int id = body->getId();
 			if (around.radius[id] > 0 && body->state->pos.allFinite()) near[id] = std::max(around.boundarySpeed, grid.largestNear(body->state->pos));
 		}
 		// A struck clump carries all its members along.
 		std::unordered_map<int, Real> clumps;
-		for (const auto& body : *scene.bodies)
+		for (const auto& body : firstBodies(scene, around.speed.size()))
 			if (body->isClumpMember()) clumps[body->clumpId] = std::max(clumps[body->clumpId], near[body->getId()]);
-		for (const auto& body : *scene.bodies)
+		for (const auto& body : firstBodies(scene, around.speed.size()))
 			if (body->isClumpMember()) near[body->getId()] = clumps[body->clumpId];
 	}
 	std::vector<Real> reach(around.speed.size(), 0);
-	for (const auto& body : *scene.bodies) {
+	for (const auto& body : firstBodies(scene, around.speed.size())) {
 		const int id = body->getId();
 		const bool driven = !body->isDynamic() && !body->isClumpMember(); // nothing can be handed on to it
 		reach[id] = h * (driven ? around.speed[id] : std::max(around.speed[id], near[id])) + around.margin[id];
@@ -224,8 +236,10 @@ double Reach::ofBound(const Scene& scene, int id)
 {
 	if (!(scene.dt > 0)) return 0;
 	const Reaches* its = &reachesOf(scene, true);
+	if (!its->knows(id)) return 0; // appended from outside just now: from the next step on
 	if (its->boundMade[id].exchange(true, std::memory_order_relaxed)) {
 		its = &reachesOf(scene, true, its);
+		if (!its->knows(id)) return 0;
 		its->boundMade[id].store(true, std::memory_order_relaxed);
 	}
 	return its->reach[id];
@@ -235,7 +249,7 @@ double Reach::ofPair(const Scene& scene, int id1, int id2)
 {
 	if (!(scene.dt > 0)) return 0;
 	const Reaches& its = reachesOf(scene, false);
-	return its.reach[id1] + its.reach[id2];
+	return its.knows(id1) && its.knows(id2) ? its.reach[id1] + its.reach[id2] : 0;
 }
 
 bool Reach::softLawsAct(const Scene& scene) { return !(scene.dt > 0) || reachesOf(scene, false).softLaws; }

@@ -6,6 +6,7 @@
 """
 
 import importlib
+from pathlib import Path
 from types import ModuleType
 
 from . import _loading
@@ -16,6 +17,10 @@ globals().update(_classes)
 from ._presets import engines  # noqa: E402 - needs the classes
 
 __all__ = [*_classes, "engines"]
+
+
+def __dir__() -> list[str]:
+    return [*__all__, *sorted(file.stem for file in Path(__file__).parent.glob("[!_]*.py"))]
 
 
 def __getattr__(name: str) -> ModuleType:

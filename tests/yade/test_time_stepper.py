@@ -220,10 +220,10 @@ def test_same_bits_after_loading(tmp_path) -> None:
 
 @pytest.mark.parametrize("small_ball", [False, True])
 def test_blocks_are_bodies_like_spheres(small_ball: bool) -> None:
-    """h (v + h g) = maxDisplacement r with r the ball around the smallest block, a cube, where no sphere is smaller."""
+    """h (v + h g) = maxDisplacement r with r half the thickness of a slender block, where no sphere is smaller."""
     half = 0.5
     material()
-    corners = [(x, y, z) for x in (-half, half) for y in (-half, half) for z in (-half, half)]
+    corners = [(x, y, z) for x in (-7 * half, 7 * half) for y in (-2 * half, 2 * half) for z in (-half, half)]
     cube = O.bodies.append(polyhedra_utils.polyhedra(O.materials[0], v=corners))
     grain((30, 0, 0), radius=0.3 if small_ball else 5)
     utils_box = O.bodies.append(utils.box((60, 0, 0), (0.01, 9, 9), fixed=True))  # a wall is no grain
@@ -231,5 +231,5 @@ def test_blocks_are_bodies_like_spheres(small_ball: bool) -> None:
     state(cube).angVel = Vector3(1e-3, 0, 0)
     stepper = _equip(gravity=(0, 0, -G), maxDisplacement=0.2, growth=10)
     O.step()
-    radius = 0.3 if small_ball else half * math.sqrt(3)
+    radius = 0.3 if small_ball else half
     assert O.dt * O.dt * G == pytest.approx(0.2 * radius, rel=1e-12) and stepper.limitedBy == "displacement"
