@@ -101,8 +101,8 @@ void ContactDynamicsStep::displace(Scene& scene, Real share, Real allowed, const
 	for (const TouchingPair& pair : pairs) {
 		std::size_t its = pair.first;
 		while (pair.loaded && problem.contacts[its].impulse == Vector3r::Zero()) its++;
-		candidates.push_back(
-				{static_cast<int>(its), pair.gap, pair.deepest, pair.size, links[pair.first].pushed ? links[pair.first].phys->pseudoImpulse : 0});
+		candidates.push_back({static_cast<int>(its), pair.gap, pair.deepest, pair.size, pair.last - pair.first > 1,
+							  links[pair.first].pushed ? links[pair.first].phys->pseudoImpulse : 0});
 	}
 	repair.solve(problem, candidates, share, allowed, cellMobility);
 	for (std::size_t k = 0; k < pairs.size(); k++) setPseudoImpulse(pairs[k], candidates[k].pseudoImpulse);

@@ -110,6 +110,7 @@ void PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, std::
 	sweep(candidates, settled * asked);
 	for (Candidate& candidate : candidates) candidate.pseudoImpulse /= asked;
 	limit(largestWay * smallest);
+	holdBack(candidates, allowed);
 }
 
 /// Scaling all displacements alike keeps them admissible: the way of no contact grows.
@@ -124,6 +125,25 @@ void PenetrationRepair::limit(Real allowedDisplacement)
 	for (Vector3r& displacement : displacements) displacement *= allowedDisplacement / largest;
 	cellStrain *= allowedDisplacement / largest;
 	largest = allowedDisplacement;
+}
+
+/// One sweep a step is no solution. Where it would make an overlap of faces deeper than any is, and than twice what is left alone, displacements and
+/// pseudo-impulses are shortened, if need be to nothing: the deepest overlap is what the next step asks for, and a wall of bricks at rest asked for
+/// more and more. Not for points: a soft packing of balls has to pass through such steps, and always comes out of them.
+void PenetrationRepair::holdBack(std::vector<Candidate>& candidates, Real allowed)
+{
+	Real deepest = 0, part = 1;
+	for (const Candidate& candidate : candidates) deepest = std::max(deepest, -candidate.deepest);
+	for (std::size_t i = 0; i < rows.size(); i++) {
+		const Real least = -std::max(deepest, 2 * allowed * candidates[i].size), its = way(i);
+		if (candidates[i].faces && its < 0 && candidates[i].deepest + its < least)
+			part = std::min(part, std::abs((least - candidates[i].deepest) / its));
+	}
+	if (part == 1) return;
+	for (Vector3r& displacement : displacements) displacement *= part;
+	cellStrain *= part;
+	largest *= part;
+	for (Candidate& candidate : candidates) candidate.pseudoImpulse *= part;
 }
 
 Real PenetrationRepair::remainingOverlap(const std::vector<Candidate>& candidates) const

@@ -35,6 +35,7 @@ public:
 		Real gap;			// the larger one of those at the start and at the end of the step: an overlap that the motion removes is none [m]
 		Real deepest;		// of all points of the pair, <= gap [m]
 		Real size;			// what an overlap is measured against [m]
+		bool faces;			// touch in several points
 		Real pseudoImpulse; // in: of the step before, out: of this step; over the largest displacement asked for [kg]
 	};
 
@@ -77,6 +78,7 @@ private:
 	Real visit(std::size_t row, Real& pseudoImpulse);
 	void sweep(std::vector<Candidate>& candidates, Real unnoticed);
 	void limit(Real allowedDisplacement);
+	void holdBack(std::vector<Candidate>& candidates, Real allowed);
 };
 
 } // namespace yade
