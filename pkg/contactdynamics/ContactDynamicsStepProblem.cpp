@@ -22,8 +22,9 @@ template <class Values> boost::python::list listOf(const Values& values)
 contactdynamics::BlockProblem ContactDynamicsStep::assembledProblem(const char* caller) const
 {
 	if (!solved)
-		throw std::runtime_error(std::string("ContactDynamicsEngine.") + caller +
-								 ": no step has been solved yet (or the last one ended with an error before the solve, or one is under way: O.pause() first).");
+		throw std::runtime_error(
+				std::string("ContactDynamicsEngine.") + caller +
+				": no step has been solved yet (or the last one ended with an error before the solve, or one is under way: O.pause() first).");
 	if (problem.meanField && !problem.meanField->inverseMass.isZero(0) && problem.contacts.size() > largestFull)
 		throw std::runtime_error(
 				std::string("ContactDynamicsEngine.") + caller +
