@@ -148,8 +148,7 @@ void ContactDynamicsCellController::requireRoom(const Scene& scene, const Matrix
 			message << "ContactDynamicsCellController: body #" << body->getId() << " (" << body->shape->getClassName() << ") is " << extent
 					<< " wide, and with this step the periodic cell would be " << width << " wide across its edge " << axis
 					<< "; it must be more than twice as wide as a body, because YADE knows one contact of two bodies only, and none of a body with "
-					   "itself. "
-					   "Use more bodies, or stop compressing the cell.";
+					   "itself. Use more bodies, or stop compressing the cell.";
 			throw std::runtime_error(message.str());
 		}
 	}

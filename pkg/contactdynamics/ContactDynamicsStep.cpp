@@ -298,7 +298,8 @@ Vector3r ContactDynamicsStep::beltVelocity(const BodyView& view, const Vector3r&
 /// Likewise its turning [rad/s].
 Vector3r ContactDynamicsStep::beltTurning(int index) const
 {
-	return motions[index].moved ? Vector3r(Vector3r::Zero()) : views[idOfIndex[index]].state->angVel;
+	const BodyView& view = views[idOfIndex[index]];
+	return view.belt ? view.state->angVel : Vector3r(Vector3r::Zero());
 }
 
 void ContactDynamicsStep::requireUsable(const Link& link, const contactdynamics::Contact& contact) const

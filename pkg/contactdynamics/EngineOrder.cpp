@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "EngineOrder.hpp"
 #include "ContactDynamicsCellController.hpp"
+#include "LawForUs.hpp"
 #include <core/BodyContainer.hpp>
 #include <core/InteractionContainer.hpp>
 #include <core/InteractionLoop.hpp>
@@ -40,7 +41,7 @@ bool followsForces(const Engine& engine)
 bool hasLawForUs(const InteractionLoop& loop)
 {
 	const auto& laws = loop.lawDispatcher->functors;
-	return std::any_of(laws.begin(), laws.end(), [](const auto& law) { return law->get2DFunctorType2() == "ContactDynamicsPhys"; });
+	return std::any_of(laws.begin(), laws.end(), isLawForUs);
 }
 } // namespace
 

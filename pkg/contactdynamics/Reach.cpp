@@ -4,6 +4,7 @@
 #include "ContactDynamicsCellController.hpp"
 #include "ContactDynamicsTriaxialController.hpp"
 #include "Gravity.hpp"
+#include "LawForUs.hpp"
 #include <core/Body.hpp>
 #include <core/Cell.hpp>
 #include <core/InteractionLoop.hpp>
@@ -35,6 +36,7 @@ constexpr Real slowStep = 0.5;
 constexpr Real flightsPerCell = 4;
 
 struct Surroundings {
+	std::vector<const Body*> bodies;		 // listed once: more may be appended from outside while a run goes on in the background
 	std::vector<Real> speed, radius, margin; // by body id
 	Real smallestRadius = std::numeric_limits<Real>::infinity();
 	Real largestSpeed = 0;	// of all bodies
@@ -57,16 +59,6 @@ struct Reaches {
 Reaches buffers[2];							// written under `guard`
 std::atomic<const Reaches*> known{nullptr}; // one of the buffers
 std::mutex guard;
-
-/// The bodies with ids below `count`: more may be appended from outside while a run goes on in the background.
-std::vector<const Body*> firstBodies(const Scene& scene, std::size_t count)
-{
-	std::vector<const Body*> bodies;
-	bodies.reserve(count);
-	for (std::size_t id = 0; id < std::min(count, scene.bodies->size()); ++id)
-		if (const Body* body = (*scene.bodies)[static_cast<unsigned>(id)].get()) bodies.push_back(body);
-	return bodies;
-}
 
 /// Largest distance of a point of the surface from the body's position, for the part of its speed that comes from rotation.
 Real turningRadius(const Shape& shape)
@@ -116,7 +108,10 @@ Surroundings measureSpeeds(const Scene& scene)
 	around.speed.assign(count, 0);
 	around.radius.assign(count, 0);
 	around.margin.assign(count, 0);
-	for (const auto& body : firstBodies(scene, around.speed.size())) {
+	around.bodies.reserve(count);
+	for (std::size_t id = 0; id < count; ++id)
+		if (const Body* body = (*scene.bodies)[static_cast<unsigned>(id)].get()) around.bodies.push_back(body);
+	for (const Body* body : around.bodies) {
 		if (body->isClump()) continue;
 		const int id = body->getId();
 		const Real radius = grainRadius(*body);
@@ -137,9 +132,9 @@ Surroundings measureSpeeds(const Scene& scene)
 /// Largest speed of the spheres in a cube of space, by the cube's place in a grid of edge `edge`.
 class SpeedGrid {
 public:
-	SpeedGrid(const Scene& scene, const Surroundings& around, Real edge_) : edge(edge_)
+	SpeedGrid(const Surroundings& around, Real edge_) : edge(edge_)
 	{
-		for (const auto& body : firstBodies(scene, around.speed.size())) {
+		for (const Body* body : around.bodies) {
 			if (around.radius[body->getId()] == 0 || !body->state->pos.allFinite()) continue;
 			Real& largest = cells[key(body->state->pos, {0, 0, 0})];
 			largest = std::max(largest, around.speed[body->getId()]);
@@ -179,20 +174,20 @@ std::vector<Real> spreadReaches(const Scene& scene, const Surroundings& around)
 	// Positions in a periodic cell are not wrapped, so nearness cannot be told from them: there everybody gets the largest speed.
 	if (h * around.largestSpeed > slowStep * around.smallestRadius && !scene.isPeriodic) {
 		const Real largestRadius = *std::max_element(around.radius.begin(), around.radius.end());
-		const SpeedGrid grid(scene, around, flightsPerCell * (h * around.largestSpeed + 2 * largestRadius));
-		for (const auto& body : firstBodies(scene, around.speed.size())) {
+		const SpeedGrid grid(around, flightsPerCell * (h * around.largestSpeed + 2 * largestRadius));
+		for (const Body* body : around.bodies) {
 			const int id = body->getId();
 			if (around.radius[id] > 0 && body->state->pos.allFinite()) near[id] = std::max(around.boundarySpeed, grid.largestNear(body->state->pos));
 		}
 		// A struck clump carries all its members along.
 		std::unordered_map<int, Real> clumps;
-		for (const auto& body : firstBodies(scene, around.speed.size()))
+		for (const Body* body : around.bodies)
 			if (body->isClumpMember()) clumps[body->clumpId] = std::max(clumps[body->clumpId], near[body->getId()]);
-		for (const auto& body : firstBodies(scene, around.speed.size()))
+		for (const Body* body : around.bodies)
 			if (body->isClumpMember()) near[body->getId()] = clumps[body->clumpId];
 	}
 	std::vector<Real> reach(around.speed.size(), 0);
-	for (const auto& body : firstBodies(scene, around.speed.size())) {
+	for (const Body* body : around.bodies) {
 		const int id = body->getId();
 		const bool driven = !body->isDynamic() && !body->isClumpMember(); // nothing can be handed on to it
 		reach[id] = h * (driven ? around.speed[id] : std::max(around.speed[id], near[id])) + around.margin[id];
@@ -206,7 +201,7 @@ bool hasSoftLaws(const Scene& scene)
 	for (const auto& engine : scene.engines)
 		if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
 			for (const auto& law : loop->lawDispatcher->functors)
-				if (law->get2DFunctorType2() != "ContactDynamicsPhys") return true;
+				if (!isLawForUs(law)) return true;
 	return false;
 }
 

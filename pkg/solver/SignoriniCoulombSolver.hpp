@@ -21,10 +21,9 @@ public:
 
 	/// Solves in place, starting from Contact::impulse. On return every impulse is inside its cone and the body velocities are
 	/// free velocity + M^-1 H R of exactly these impulses, MeanField::gradient likewise.
-	/// @throws std::invalid_argument  body index out of range or equal, normal not of unit length, friction or a compliance negative, inverse mass of
-	/// the
-	///                                mean field negative or not symmetric, its limit or the tolerance not positive, maxIterations negative,
-	///                                threads < 1. The message names the contact or the field, and the value; the problem is unchanged.
+	/// @throws std::invalid_argument  body index out of range or equal, normal not of unit length, friction or a compliance negative, inverse mass
+	///                                of the mean field negative or not symmetric, its limit or the tolerance not positive, maxIterations
+	///                                negative, threads < 1. The message names contact or field, and the value; the problem is unchanged.
 	SolveReport solve(GrainProblem& problem, const SolverOptions& options);
 
 private:
