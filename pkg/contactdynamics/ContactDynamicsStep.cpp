@@ -382,14 +382,16 @@ void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string&
 void ContactDynamicsStep::shiftContacts(Real warmStart)
 {
 	shifted.clear(h);
-	rolling.clear();
+	problem.rolling.clear();
 	for (std::size_t i = 0; i < links.size(); i++) {
 		const Link& link = links[i];
 		if (link.plain) continue;
 		const contactdynamics::Contact& contact = problem.contacts[i];
 		shifted.shift(problem, static_cast<int>(i), *link.phys, {link.gap, velocityAtStart(contact), forecast(link, contact), link.swapped});
 		if (link.phys->rollingArm > 0 || link.phys->twistingArm > 0)
-			rolling.add(static_cast<int>(i), *link.phys, link.swapped, warmStart, beltTurning(contact.body2) - beltTurning(contact.body1));
+			problem.rolling.push_back({static_cast<int>(i), link.phys->rollingArm, link.phys->twistingArm,
+									   beltTurning(contact.body2) - beltTurning(contact.body1),
+									   (link.swapped ? -warmStart : warmStart) * link.phys->torqueImpulse});
 	}
 }
 
@@ -425,7 +427,8 @@ void ContactDynamicsStep::apply(Scene& scene)
 	bonded.assign(scene.trackEnergy ? links.size() : 0, 0);
 	for (std::size_t i = 0; i < bonded.size(); i++) bonded[i] = ShiftedContacts::isBonded(*links[i].phys);
 	shifted.restore(problem, tolerance);
-	rolling.remember();
+	for (const contactdynamics::RollingFriction& one : problem.rolling)
+		links[one.contact].phys->torqueImpulse = (links[one.contact].swapped ? -1 : 1) * one.torque;
 	const long count = static_cast<long>(links.size());
 	parallelLoop(count, [&](long i) {
 		if (i + ahead < count) prefetchObject(links[i + ahead].phys);
@@ -455,10 +458,11 @@ void ContactDynamicsStep::apply(Scene& scene)
 		on2.torque += link.arm2.cross(force);
 	}
 	meanPenetration = activeContacts > 0 ? penetrations / activeContacts : 0;
-	for (const RollingFriction::Row& row : rolling.all()) {
-		const Vector3r torque = (row.swapped ? -1 : 1) / h * row.impulse;
-		loads[links[row.contact].id1].torque -= torque;
-		loads[links[row.contact].id2].torque += torque;
+	for (const contactdynamics::RollingFriction& one : problem.rolling) {
+		const Link& link = links[one.contact];
+		const Vector3r torque = link.phys->torqueImpulse / h;
+		loads[link.id1].torque -= torque;
+		loads[link.id2].torque += torque;
 	}
 	if (scene.trackEnergy) trackEnergy(scene);
 

@@ -2,7 +2,6 @@
 #pragma once
 #include "FreeMotion.hpp"
 #include "PenetrationRepair.hpp"
-#include "RollingFriction.hpp"
 #include "ShiftedContacts.hpp"
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
@@ -104,7 +103,6 @@ private:
 		Vector3r force, torque;
 	};
 
-	contactdynamics::SolveReport solveOnce(const contactdynamics::SolverOptions& options);
 	contactdynamics::SolveReport solveAtRest(const contactdynamics::SolverOptions& options);
 	bool standsStill() const;
 	Real roundOffAtRest() const;
@@ -168,7 +166,6 @@ private:
 	std::vector<Manifold> manifolds;
 	std::vector<Load> loads; // contact force and torque by body id
 	ShiftedContacts shifted;
-	RollingFriction rolling;
 	std::vector<std::uint8_t> bonded; // by contact, while energy is tracked: a bond may break in the step
 	contactdynamics::SignoriniCoulombSolver solver;
 	std::vector<contactdynamics::Body> freeBodies; // of solveAtRest(), to start again from

@@ -43,9 +43,9 @@ boost::python::list ContactDynamicsStep::angularMomentaById() const
 		momenta[contact.body1] -= contact.arm1.cross(contact.impulse);
 		momenta[contact.body2] += contact.arm2.cross(contact.impulse);
 	}
-	for (const RollingFriction::Row& row : rolling.all()) {
-		momenta[problem.contacts[row.contact].body1] -= row.impulse;
-		momenta[problem.contacts[row.contact].body2] += row.impulse;
+	for (const contactdynamics::RollingFriction& one : problem.rolling) {
+		momenta[problem.contacts[one.contact].body1] -= one.torque;
+		momenta[problem.contacts[one.contact].body2] += one.torque;
 	}
 	boost::python::list byId;
 	for (const BodyView& view : views) {
@@ -84,11 +84,11 @@ void ContactDynamicsStep::trackEnergy(Scene& scene)
 		const Vector3r belt = beltVelocity(view2, link.arm2, contact.normal) - beltVelocity(view1, link.arm1, contact.normal);
 		energy.addBoundary((link.swapped ? -1 : 1) * contact.impulse.dot(belt));
 	}
-	for (const RollingFriction::Row& row : rolling.all()) {
-		const int one = problem.contacts[row.contact].body1, two = problem.contacts[row.contact].body2;
+	for (const contactdynamics::RollingFriction& friction : problem.rolling) {
+		const int one = problem.contacts[friction.contact].body1, two = problem.contacts[friction.contact].body2;
 		const auto spin = [&](int index) { return Vector3r(0.5 * (atStart(index).angularVelocity + problem.bodies[index].angularVelocity)); };
-		energy.addRolling(row.impulse, spin(two) - spin(one) + row.drive);
-		energy.addBoundary(row.impulse.dot(row.drive));
+		energy.addRolling(friction.torque, spin(two) - spin(one) + friction.drive);
+		energy.addBoundary(friction.torque.dot(friction.drive));
 	}
 	for (std::size_t id = 0; id < loads.size(); id++) { // loads refer to the positions of the bodies, those of clump members to their own
 		const BodyView& view = views[id];

@@ -7,11 +7,6 @@
 
 namespace yade {
 
-contactdynamics::SolveReport ContactDynamicsStep::solveOnce(const contactdynamics::SolverOptions& options)
-{
-	return rolling.empty() ? solver.solve(problem, options) : rolling.solve(solver, problem, options);
-}
-
 /// Whether the bodies have less energy than the forces on them would give them in one step from rest.
 bool ContactDynamicsStep::standsStill() const
 {
@@ -56,7 +51,7 @@ contactdynamics::SolveReport ContactDynamicsStep::solveAtRest(const contactdynam
 	contactdynamics::SolverOptions careful = options;
 	careful.tolerance = std::min(options.tolerance, std::max(best, roundOffAtRest()));
 	careful.maxIterations = std::min(options.maxIterations, sweeps);
-	auto report = solveOnce(careful);
+	auto report = solver.solve(problem, careful);
 	if (report.status != contactdynamics::SolveStatus::maxIterations) return report;
 	if (report.residual <= options.tolerance) {
 		report.status = contactdynamics::SolveStatus::converged;
@@ -68,7 +63,7 @@ contactdynamics::SolveReport ContactDynamicsStep::solveAtRest(const contactdynam
 	rest.maxIterations = options.maxIterations - report.iterations;
 	if (rest.maxIterations < 1) return report;
 	const int done = report.iterations;
-	report = solveOnce(rest);
+	report = solver.solve(problem, rest);
 	report.iterations += done;
 	return report;
 }
@@ -82,7 +77,7 @@ contactdynamics::SolveReport ContactDynamicsStep::solve(Real allowedResidual, in
 	if (!accelerated) options.acceleration = contactdynamics::Acceleration::none;
 	options.threads = omp_get_max_threads();
 	if (problem.meanField) toMeanField();
-	const auto report = !manifolds.empty() && standsStill() ? solveAtRest(options) : solveOnce(options);
+	const auto report = !manifolds.empty() && standsStill() ? solveAtRest(options) : solver.solve(problem, options);
 	if (problem.meanField) fromMeanField();
 	solved = report.status != contactdynamics::SolveStatus::notFinite;
 	return report;

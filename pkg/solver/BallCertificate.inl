@@ -24,7 +24,8 @@ inline Wide sizeOf(const Vector& a) { return magnitude(a.x) + magnitude(a.y) + m
 
 } // namespace
 
-template <bool hasField> static inline void rebuildOf(BodyState* bodies, const BallPack* packs, std::size_t count, FieldPass* field)
+template <bool hasField, bool rolls>
+static inline void rebuildOf(BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, FieldPass* field)
 {
 	Wide moment[9]{};
 	for (const BallPack* pack = packs; pack != packs + count; ++pack) {
@@ -37,6 +38,11 @@ template <bool hasField> static inline void rebuildOf(BodyState* bodies, const B
 		one.w = one.w - (one.inverseInertia * arm1) * turn;
 		two.v = two.v + two.inverseMass * r;
 		two.w = two.w + (two.inverseInertia * arm2) * turn;
+		if (rolls) {
+			const Vector torque = load(rolling[pack - packs].torque);
+			one.w = one.w - one.inverseInertia * torque;
+			two.w = two.w + two.inverseInertia * torque;
+		}
 		scatter(bodies, pack->body1, one);
 		scatter(bodies, pack->body2, two);
 	}
@@ -44,17 +50,16 @@ template <bool hasField> static inline void rebuildOf(BodyState* bodies, const B
 		for (int i = 0; i < 9; ++i) field->moment[i] += sum(moment[i]);
 }
 
-void BALL_REBUILD(BodyState* bodies, const BallPack* packs, std::size_t count, FieldPass* field)
+void BALL_REBUILD(BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, FieldPass* field)
 {
-	if (field)
-		rebuildOf<true>(bodies, packs, count, field);
-	else
-		rebuildOf<false>(bodies, packs, count, field);
+	const auto rebuild = rolling ? (field ? rebuildOf<true, true> : rebuildOf<false, true>) : (field ? rebuildOf<true, false> : rebuildOf<false, false>);
+	rebuild(bodies, packs, rolling, count, field);
 }
 
 /// NaturalMap.hpp with everything multiplied by W_nn: with Z = W_nn r - (u + mu |u_t| n), a velocity, W_nn F = W_nn r - P_K(Z), since K is a cone.
-template <bool hasField>
-static inline CertificateSums certifyOf(const BodyState* bodies, const BallPack* packs, std::size_t count, RoundOff roundOff, const double* gradient)
+template <bool hasField, bool rolls>
+static inline CertificateSums certifyOf(const BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count,
+										RoundOff roundOff, const double* gradient)
 {
 	const Wide zero = all(0), unit = all(1), perSpeed = all(roundOff.perSpeed), most = all(roundOff.most), most2 = most * most;
 	Wide map2 = zero, impulse2 = zero, approach = zero, gradientSize = zero;
@@ -98,15 +103,26 @@ static inline CertificateSums certifyOf(const BodyState* bodies, const BallPack*
 		// What is not finite must not be masked: zero times it is not a number.
 		map2 += (counts ? (fn2 + Wt * inverse * ft2) * inverse : zero) + zero * (un + rn);
 		impulse2 += moves ? Wn * rn * rn + Wt * dot(rt, rt) : zero;
+		if (!rolls) continue;
+
+		const RollingPack& roll = rolling[pack - packs];
+		const Vector torque = load(roll.torque), map = torque - improvedTorque(roll, torque, two.w - one.w, n, rn);
+		const Wide Ww = one.inverseInertia + two.inverseInertia, size2 = dot(map, map);
+		const Wide noise = perSpeed * (sizeOf(one.w) + sizeOf(two.w) + sizeOf(load(roll.drive))) * load(roll.inverseW);
+		map2 += (size2 > noise * noise ? Ww * size2 : zero) + zero * size2;
+		impulse2 += Ww * dot(torque, torque);
 	}
 	double top = 0;
 	for (int lane = 0; lane < 4; ++lane) top = approach[lane] > top ? approach[lane] : top;
 	return {sum(map2), sum(impulse2), top};
 }
 
-CertificateSums BALL_CERTIFY(const BodyState* bodies, const BallPack* packs, std::size_t count, RoundOff roundOff, const double* gradient)
+CertificateSums BALL_CERTIFY(const BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, RoundOff roundOff,
+							 const double* gradient)
 {
-	return gradient ? certifyOf<true>(bodies, packs, count, roundOff, gradient) : certifyOf<false>(bodies, packs, count, roundOff, gradient);
+	const auto certify =
+			rolling ? (gradient ? certifyOf<true, true> : certifyOf<false, true>) : (gradient ? certifyOf<true, false> : certifyOf<false, false>);
+	return certify(bodies, packs, rolling, count, roundOff, gradient);
 }
 
 } // namespace contactdynamics

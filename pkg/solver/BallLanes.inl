@@ -105,6 +105,20 @@ inline void prefetchBodies(const BodyState* bodies, const BallPack& pack)
 	}
 }
 
+/// Torques of RollingContact::improved(). What is not finite stays visible in the part across the normal.
+/// @param spin  angular velocity of body 2 minus that of body 1
+inline Vector improvedTorque(const RollingPack& rolling, const Vector& torque, const Vector& spin, const Vector& n, Wide normalImpulse)
+{
+	const Vector trial = torque - load(rolling.inverseW) * (spin + load(rolling.drive));
+	const Wide most = load(rolling.twistingArm) * normalImpulse, limit = load(rolling.rollingArm) * normalImpulse;
+	Wide along = dot(trial, n);
+	const Vector across = trial - along * n;
+	along = along < -most ? -most : along;
+	along = along > most ? most : along;
+	const Wide length2 = dot(across, across), slip = limit / squareRoot(length2);
+	return along * n + (length2 > limit * limit ? slip : all(1)) * across;
+}
+
 inline double sum(Wide a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
 } // namespace

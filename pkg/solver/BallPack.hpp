@@ -33,6 +33,14 @@ struct alignas(64) BallPack {
 	std::int32_t id[4]; ///< index of the contact in the problem
 };
 
+/// Rolling and twisting friction of the four contacts of a BallPack, see RollingContact.hpp; zeros in a lane without.
+struct alignas(64) RollingPack {
+	double rollingArm[4], twistingArm[4];			  // [m]
+	double inverseW[4];								  // [kg m2]
+	double drive[3][4];								  // [rad/s]
+	double torque[3][4], increment[3][4], direction[3][4]; // [N m s]
+};
+
 /// How the next sweep starts: x' = y + relax (y - x) + momentum (x - x_before), for impulses and, by linearity, velocities.
 struct Extrapolation {
 	double relax = 0, momentum = 0;
@@ -52,11 +60,13 @@ struct FieldPass {
 
 /// One visit of each contact of the packs, in any order: exact one-contact solution for W = diag(Wn, Wt, Wt) at the
 /// extrapolated impulse; the velocities are expected extrapolated already.
-/// @param field  null where there is no mean field
-using BallSweep = SweepNorms (*)(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field);
+/// @param rolling  parallel to packs, null where no contact has rolling friction;  @param field  null where there is no mean field
+using BallSweep = SweepNorms (*)(BodyState* bodies, BallPack* packs, RollingPack* rolling, std::size_t count, Extrapolation extrapolation,
+								 FieldPass* field);
 
-SweepNorms ballSweepBaseline(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field);
-SweepNorms ballSweepAvx2(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field);
+SweepNorms ballSweepBaseline(BodyState* bodies, BallPack* packs, RollingPack* rolling, std::size_t count, Extrapolation extrapolation,
+							 FieldPass* field);
+SweepNorms ballSweepAvx2(BodyState* bodies, BallPack* packs, RollingPack* rolling, std::size_t count, Extrapolation extrapolation, FieldPass* field);
 
 /// Moves bodies to the extrapolated point. Of `start` and `direction` the mobilities are those of the bodies and zero, so that they stay what they
 /// are.
@@ -80,17 +90,20 @@ struct CertificateSums {
 };
 
 /// Adds to the velocities, and to the moment of the field, what the impulses of the packs give.
-using BallRebuild = void (*)(BodyState* bodies, const BallPack* packs, std::size_t count, FieldPass* field);
+using BallRebuild = void (*)(BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, FieldPass* field);
 
-void ballRebuildBaseline(BodyState* bodies, const BallPack* packs, std::size_t count, FieldPass* field);
-void ballRebuildAvx2(BodyState* bodies, const BallPack* packs, std::size_t count, FieldPass* field);
+void ballRebuildBaseline(BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, FieldPass* field);
+void ballRebuildAvx2(BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, FieldPass* field);
 
 /// The certificate of ball contacts at the impulses of the packs and the velocities of the bodies.
 /// @param gradient  of the mean field, row by row; null where there is none [1/s]
-using BallCertify = CertificateSums (*)(const BodyState* bodies, const BallPack* packs, std::size_t count, RoundOff roundOff, const double* gradient);
+using BallCertify = CertificateSums (*)(const BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count,
+										RoundOff roundOff, const double* gradient);
 
-CertificateSums ballCertifyBaseline(const BodyState* bodies, const BallPack* packs, std::size_t count, RoundOff roundOff, const double* gradient);
-CertificateSums ballCertifyAvx2(const BodyState* bodies, const BallPack* packs, std::size_t count, RoundOff roundOff, const double* gradient);
+CertificateSums ballCertifyBaseline(const BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, RoundOff roundOff,
+									const double* gradient);
+CertificateSums ballCertifyAvx2(const BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, RoundOff roundOff,
+								const double* gradient);
 
 /// The widest versions this machine can run. All versions give the same bits.
 BallSweep selectBallSweep();

@@ -4,8 +4,9 @@
 
 namespace contactdynamics {
 
-template <bool hasField>
-static inline SweepNorms sweepOf(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field)
+template <bool hasField, bool rolls>
+static inline SweepNorms sweepOf(BodyState* bodies, BallPack* packs, RollingPack* rolling, std::size_t count, Extrapolation extrapolation,
+								 FieldPass* field)
 {
 	const Wide zero = all(0), relax = all(extrapolation.relax), momentum = all(extrapolation.momentum);
 	Wide increment2 = zero, impulse2 = zero, moment[9]{};
@@ -16,6 +17,9 @@ static inline SweepNorms sweepOf(BodyState* bodies, BallPack* packs, std::size_t
 		if (end - pack > ahead) prefetchBodies(bodies, pack[ahead]);
 		if (end - pack > farAhead)
 			for (std::size_t i = 0; i < sizeof(BallPack); i += 64) __builtin_prefetch(reinterpret_cast<const char*>(pack + farAhead) + i, 1);
+		if (rolls && end - pack > farAhead)
+			for (std::size_t i = 0; i < sizeof(RollingPack); i += 64)
+				__builtin_prefetch(reinterpret_cast<const char*>(rolling + (pack - packs) + farAhead) + i, 1);
 		Side one = gather(bodies, pack->body1), two = gather(bodies, pack->body2);
 		const Vector n = load(pack->normal);
 		const Wide arm1 = load(pack->arm1), arm2 = load(pack->arm2);
@@ -53,6 +57,19 @@ static inline SweepNorms sweepOf(BodyState* bodies, BallPack* packs, std::size_t
 		one.w = one.w - (one.inverseInertia * arm1) * turn;
 		two.v = two.v + two.inverseMass * dr;
 		two.w = two.w + (two.inverseInertia * arm2) * turn;
+		if (rolls) {
+			RollingPack& roll = rolling[pack - packs];
+			const Vector lastTurn = load(roll.increment), turnAhead = relax * lastTurn + momentum * load(roll.direction);
+			const Vector before = load(roll.torque) + turnAhead, torque = improvedTorque(roll, before, two.w - one.w, n, rn), dm = torque - before;
+			store(roll.direction, lastTurn + turnAhead);
+			store(roll.torque, torque);
+			store(roll.increment, dm);
+			one.w = one.w - one.inverseInertia * dm;
+			two.w = two.w + two.inverseInertia * dm;
+			const Wide Ww = one.inverseInertia + two.inverseInertia;
+			increment2 += Ww * dot(dm, dm);
+			impulse2 += Ww * dot(torque, torque);
+		}
 		scatter(bodies, pack->body1, one);
 		scatter(bodies, pack->body2, two);
 	}
@@ -61,9 +78,13 @@ static inline SweepNorms sweepOf(BodyState* bodies, BallPack* packs, std::size_t
 	return {sum(increment2), sum(impulse2)};
 }
 
-SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, std::size_t count, Extrapolation extrapolation, FieldPass* field)
+SweepNorms BALL_SWEEP(BodyState* bodies, BallPack* packs, RollingPack* rolling, std::size_t count, Extrapolation extrapolation, FieldPass* field)
 {
-	return field ? sweepOf<true>(bodies, packs, count, extrapolation, field) : sweepOf<false>(bodies, packs, count, extrapolation, field);
+	if (rolling)
+		return field ? sweepOf<true, true>(bodies, packs, rolling, count, extrapolation, field)
+					 : sweepOf<false, true>(bodies, packs, rolling, count, extrapolation, field);
+	return field ? sweepOf<true, false>(bodies, packs, rolling, count, extrapolation, field)
+				 : sweepOf<false, false>(bodies, packs, rolling, count, extrapolation, field);
 }
 
 void BODY_ADVANCE(BodyState* now, BodyState* start, BodyState* direction, std::size_t count, Extrapolation extrapolation)

@@ -57,7 +57,19 @@ SweepNorms visit(GeneralContact& c, BodyState* bodies, Extrapolation extrapolati
 		v2 += c.mobility2->inverseMass.cwiseProduct(push);
 		w2 += c.mobility2->inverseInertia * c.arm2.cross(push);
 	}
-	return {dr.dot(c.W * dr), r.dot(c.W * r)};
+	SweepNorms norms{dr.dot(c.W * dr), r.dot(c.W * r)};
+	if (!c.rolling) return norms;
+
+	RollingContact& turn = *c.rolling;
+	const Vector3 aheadM = extrapolation.relax * turn.increment + extrapolation.momentum * turn.direction, before = turn.torque + aheadM;
+	turn.direction = turn.increment + aheadM;
+	turn.torque = turn.improved(before, w2 - w1, c.frame.row(0), r[0]);
+	const Vector3 dM = turn.increment = turn.torque - before;
+	if (c.body1 >= 0) w1 -= c.mobility1->inverseInertia * dM;
+	if (c.body2 >= 0) w2 += c.mobility2->inverseInertia * dM;
+	norms.increment2 += dM.dot(turn.W * dM);
+	norms.impulse2 += turn.torque.dot(turn.W * turn.torque);
+	return norms;
 }
 
 } // namespace contactdynamics

@@ -4,6 +4,7 @@
 #include "BallPack.hpp"
 #include "GrainProblem.hpp"
 #include "OneContact.hpp"
+#include "RollingContact.hpp"
 
 namespace contactdynamics {
 
@@ -20,6 +21,7 @@ struct GeneralContact {
 	const Body *mobility1, *mobility2; ///< inverse masses and inertias of the bodies
 	OneContact local;
 	Vector3 impulse, increment, direction; ///< as in BallPack
+	RollingContact* rolling;			   ///< null: none
 };
 
 /// Rows n, t1, t2 of a right-handed frame, a function of the normal alone: t1 is the axis least aligned with it, made orthogonal to it.

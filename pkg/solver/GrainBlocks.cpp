@@ -60,7 +60,7 @@ void GrainOperator::layOutByBlock(const std::vector<std::int32_t>& ids)
 		}
 		if (chunks.size() > firstChunk) groups.push_back({firstChunk, chunks.size()});
 	}
-	packs.resize(packCount, emptyPack());
+	resizePacks(packCount);
 	generals.resize(generalCount);
 	share(blocks.count(), [&](std::size_t b) { fillBlock(b); });
 }
@@ -73,7 +73,7 @@ void GrainOperator::colourBlock(std::size_t block)
 	std::size_t next[kinds + 1] = {};
 	for (std::size_t i = first; i < last; ++i) {
 		const Contact& c = contacts[byBlock[i]];
-		colourOf[i] = 2 * colouring.assign(indexOf(c.body1), indexOf(c.body2)) + (isBall(c) ? 0 : 1);
+		colourOf[i] = 2 * colouring.assign(indexOf(c.body1), indexOf(c.body2)) + (isBall(byBlock[i]) ? 0 : 1);
 		++next[colourOf[i] + 1];
 	}
 	Chunk& chunk = blockChunks[block];
@@ -112,7 +112,7 @@ void GrainOperator::fillBlock(std::size_t block)
 			++pack;
 			lane = 0;
 		}
-		putBall(packs[pack], int(lane++), order[i]);
+		putBall(pack, int(lane++), order[i]);
 		before = kind;
 	}
 }

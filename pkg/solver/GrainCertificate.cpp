@@ -88,11 +88,12 @@ void GrainOperator::rebuildVelocities()
 			const std::size_t i = group.firstChunk + k;
 			const Chunk& chunk = chunks[i];
 			FieldPass* field = hasField() ? &chunkFields[i] : nullptr;
-			if (chunk.packs) ballRebuild(state.data(), packs.data() + chunk.firstPack, chunk.packs, field);
+			if (chunk.packs) ballRebuild(state.data(), packs.data() + chunk.firstPack, rollingFrom(chunk.firstPack), chunk.packs, field);
 			for (std::size_t g = chunk.firstGeneral; g < chunk.firstGeneral + chunk.generals; ++g) {
 				const Contact& c = problem->contacts[generals[g].id];
 				const Vector3 impulse = generals[g].frame.transpose() * generals[g].impulse;
 				addImpulse(c, impulse);
+				if (generals[g].rolling) addTorque(c, generals[g].rolling->torque);
 				if (field) Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(field->moment) += impulse * (c.arm1 - c.arm2).transpose();
 			}
 		});
@@ -144,7 +145,7 @@ double GrainOperator::certificate()
 		Sums& total = sums[k];
 		if (k < packRuns) {
 			const std::size_t first = k * packsPerRun, count = std::min(packsPerRun, packs.size() - first);
-			const CertificateSums balls = ballCertify(state.data(), packs.data() + first, count, roundOff, hasField() ? L : nullptr);
+			const CertificateSums balls = ballCertify(state.data(), packs.data() + first, rollingFrom(first), count, roundOff, hasField() ? L : nullptr);
 			total.residual.add(balls.map2, balls.impulse2);
 			total.approach = balls.approach;
 		} else if (k < packRuns + generalRuns) {
@@ -156,6 +157,7 @@ double GrainOperator::certificate()
 					certify(c, g.frame, compliantDelassus(c, g.frame), g.impulse, total);
 				else
 					certify(c, g.frame, g.W, g.impulse, total);
+				if (g.rolling) certify(*g.rolling, c, g.impulse[0], total);
 			}
 		} else {
 			const std::size_t first = (k - packRuns - generalRuns) * perRun;
@@ -230,6 +232,8 @@ void GrainOperator::finish(SolveReport& report)
 	if (hasField()) problem->meanField->gradient = gradient;
 	report.maxApproachSpeed = maxApproachSpeed;
 	collectImpulses(impulses);
+	collectTorques();
+	for (std::size_t k = 0; k < turning.size(); ++k) problem->rolling[k].torque = turning[k].torque;
 	active.assign((impulses.size() + perRun - 1) / perRun, 0);
 	inRuns(impulses.size(), [this](std::size_t i) {
 		Contact& c = problem->contacts[i];

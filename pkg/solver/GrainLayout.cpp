@@ -10,10 +10,18 @@ constexpr std::size_t packsPerChunk = 16, generalsPerChunk = 32; // a microsecon
 
 } // namespace
 
+bool GrainOperator::isBall(std::int32_t id) const
+{
+	const Contact& c = problem->contacts[id];
+	const bool compliant = c.normalCompliance != 0 || c.tangentialCompliance != 0;
+	return c.ball && c.imageVelocity.isZero(0) && !compliant;
+}
+
 void GrainOperator::putSleeper(std::int32_t id)
 {
 	const Contact& c = problem->contacts[id];
 	impulses[id].setZero();
+	if (RollingContact* turn = turningAt(id)) turn->stop();
 	sleepers.push_back({c.normal, c.ball ? c.gapVelocity + c.imageVelocity.dot(c.normal) : c.gapVelocity, c.normal.dot(c.arm1 - c.arm2),
 						seat[c.body1], seat[c.body2], id, !c.ball});
 }
@@ -28,8 +36,16 @@ BallPack GrainOperator::emptyPack() const
 	return empty;
 }
 
-void GrainOperator::putBall(BallPack& pack, int lane, std::int32_t id) const
+void GrainOperator::resizePacks(std::size_t count)
 {
+	packs.resize(count, emptyPack());
+	if (!turning.empty()) rollingPacks.resize(count, RollingPack{});
+}
+
+void GrainOperator::putBall(std::size_t at, int lane, std::int32_t id)
+{
+	BallPack& pack = packs[at];
+	if (!turningOf.empty() && turningOf[id] >= 0) putTurning(rollingPacks[at], lane, id);
 	const Contact& c = problem->contacts[id];
 	const Body &b1 = problem->bodies[c.body1], &b2 = problem->bodies[c.body2];
 	const double a1 = c.arm1.dot(c.normal), a2 = c.arm2.dot(c.normal);
@@ -49,7 +65,7 @@ void GrainOperator::putBall(BallPack& pack, int lane, std::int32_t id) const
 	pack.inverseWt[lane] = Wt > 0 ? 1 / mobility(Wt, c) : 0;
 }
 
-void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id) const
+void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id)
 {
 	const Contact& c = problem->contacts[id];
 	g.id = id;
@@ -69,6 +85,7 @@ void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id) const
 	g.friction = c.friction;
 	g.local = OneContact(g.W);
 	g.impulse = g.frame * impulses[id];
+	g.rolling = turningAt(id);
 	g.increment.setZero();
 	g.direction.setZero();
 }
@@ -93,7 +110,7 @@ void GrainOperator::layOutByColour(const std::vector<std::int32_t>& ids)
 	colourOf.resize(ids.size());
 	for (std::size_t i = 0; i < ids.size(); ++i) {
 		const Contact& c = contacts[ids[i]];
-		colourOf[i] = 2 * colouring.assign(indexOf(c.body1), indexOf(c.body2)) + (isBall(c) ? 0 : 1);
+		colourOf[i] = 2 * colouring.assign(indexOf(c.body1), indexOf(c.body2)) + (isBall(ids[i]) ? 0 : 1);
 		++count[colourOf[i] + 1];
 	}
 	for (int k = 0; k < kinds; ++k) count[k + 1] += count[k];
@@ -103,14 +120,13 @@ void GrainOperator::layOutByColour(const std::vector<std::int32_t>& ids)
 		std::copy(count, count + kinds, next);
 		for (std::size_t i = 0; i < ids.size(); ++i) order[next[colourOf[i]]++] = ids[i];
 	}
-	const BallPack empty = emptyPack();
 	for (int colour = 0; colour <= Colouring::overflow; ++colour) {
 		const std::size_t balls = count[2 * colour], first = count[2 * colour + 1], last = count[2 * colour + 2];
 		if (balls == last) continue;
 		const std::size_t lanes = Colouring::lanes(colour);
 		const std::size_t firstPack = packs.size(), firstGeneral = generals.size(), firstChunk = chunks.size();
-		packs.resize(firstPack + (first - balls + lanes - 1) / lanes, empty);
-		inRuns(first - balls, [&](std::size_t i) { putBall(packs[firstPack + i / lanes], int(i % lanes), order[balls + i]); });
+		resizePacks(firstPack + (first - balls + lanes - 1) / lanes);
+		inRuns(first - balls, [&](std::size_t i) { putBall(firstPack + i / lanes, int(i % lanes), order[balls + i]); });
 		generals.resize(firstGeneral + last - first);
 		inRuns(last - first, [&](std::size_t i) { putGeneral(generals[firstGeneral + i], order[first + i]); });
 		const std::size_t packCount = packs.size() - firstPack, generalCount = generals.size() - firstGeneral;
@@ -133,6 +149,7 @@ void GrainOperator::letIdleSleep()
 	if (contacts.size() <= 64) return;
 	const double energy = lastNorms.impulse2 / double(awake); // typical r^T W r, so that W_nn times it is a velocity squared
 	selected.clear();
+	collectTorques();
 	std::size_t idle = 0;
 	const auto sort = [&](std::int32_t id, bool carries, double Wnn) {
 		const double u = normalVelocity(contacts[id]) + contacts[id].gapVelocity;
@@ -146,9 +163,14 @@ void GrainOperator::letIdleSleep()
 			if (p.id[k] < 0) continue;
 			bool carries = false;
 			for (int j = 0; j < 3; ++j) carries = carries || p.impulse[j][k] != 0 || p.increment[j][k] != 0 || p.direction[j][k] != 0;
+			const RollingContact* turn = turningAt(p.id[k]);
+			carries = carries || (turn && turn->carries());
 			sort(p.id[k], carries, stateOf(contacts[p.id[k]].body1).inverseMass + stateOf(contacts[p.id[k]].body2).inverseMass);
 		}
-	for (const GeneralContact& g : generals) sort(g.id, !g.impulse.isZero(0) || !g.increment.isZero(0) || !g.direction.isZero(0), g.W(0, 0));
+	for (const GeneralContact& g : generals) {
+		const bool turns = g.rolling && g.rolling->carries();
+		sort(g.id, turns || !g.impulse.isZero(0) || !g.increment.isZero(0) || !g.direction.isZero(0), g.W(0, 0));
+	}
 	if (5 * idle < awake) return; // not worth the move
 
 	place.assign(contacts.size(), -1);
@@ -177,6 +199,7 @@ void GrainOperator::letIdleSleep()
 			putSleeper(std::int32_t(id));
 	}
 	packs.clear();
+	rollingPacks.clear();
 	generals.clear();
 	groups.clear();
 	chunks.clear();

@@ -36,6 +36,7 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 		impulses[i] = none ? Vector3(Vector3::Zero()) : insideCone(c.impulse, c.normal, c.friction);
 	});
 	startField();
+	startTurning();
 	freeVelocities();
 	sums.assign((contacts.size() + perRun - 1) / perRun, Sums{});
 	inRuns(contacts.size(), [&](std::size_t i) {
@@ -63,6 +64,7 @@ void GrainOperator::beginAtImpulses()
 	const auto& contacts = problem->contacts;
 	for (std::size_t i = 0; i < impulses.size(); ++i)
 		if (!impulses[i].isZero(0)) addImpulse(contacts[i], impulses[i]);
+	beginAtTorques();
 	if (hasField()) sumMoment();
 	if (accelerated) {
 		sweepStart = state;
@@ -81,6 +83,7 @@ void GrainOperator::beginAtImpulses()
 	inRuns(contacts.size(), [&](std::size_t i) { mustWake[i] = approach(i) <= fastest || !impulses[i].isZero(0); });
 	const bool small = contacts.size() <= 64;
 	packs.clear();
+	rollingPacks.clear();
 	generals.clear();
 	groups.clear();
 	chunks.clear();
@@ -113,12 +116,20 @@ double GrainOperator::normalVelocity(const Sleeper& s) const
 	return (velocity(state[s.body2]) - velocity(state[s.body1])).dot(s.normal) + field;
 }
 
-void GrainOperator::keep() { collectImpulses(kept); }
+void GrainOperator::keep()
+{
+	collectImpulses(kept);
+	collectTorques();
+	keptTorques.resize(turning.size());
+	for (std::size_t k = 0; k < turning.size(); ++k) keptTorques[k] = turning[k].torque;
+}
 
 void GrainOperator::exchangeKept()
 {
 	collectImpulses(impulses);
 	impulses.swap(kept);
+	collectTorques();
+	for (std::size_t k = 0; k < turning.size(); ++k) turning[k].torque.swap(keptTorques[k]);
 	freeVelocities();
 	beginAtImpulses();
 }
@@ -131,7 +142,7 @@ void GrainOperator::extrapolate(Extrapolation by, std::size_t first, std::size_t
 void GrainOperator::visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by, FieldPass* field)
 {
 	if (accelerated) extrapolate(by, chunk.firstSeat, chunk.lastSeat);
-	norms = chunk.packs ? ballSweep(state.data(), packs.data() + chunk.firstPack, chunk.packs, by, field) : SweepNorms{};
+	norms = chunk.packs ? ballSweep(state.data(), packs.data() + chunk.firstPack, rollingFrom(chunk.firstPack), chunk.packs, by, field) : SweepNorms{};
 	for (std::size_t k = chunk.firstGeneral; k < chunk.firstGeneral + chunk.generals; ++k) {
 		const SweepNorms one = contactdynamics::visit(generals[k], state.data(), by, field);
 		norms.increment2 += one.increment2;

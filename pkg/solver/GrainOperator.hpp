@@ -99,6 +99,9 @@ private:
 	std::vector<std::uint8_t> movable;
 	std::vector<Vector3> impulses; // per contact, global axes, inside the cone: those of the start, and from finish() on those of the end
 	std::vector<Vector3> kept;	   // likewise
+	std::vector<RollingContact> turning; // parallel to GrainProblem::rolling
+	std::vector<Vector3> keptTorques;
+	std::vector<std::int32_t> turningOf; // by contact, -1: none; empty where no contact has rolling friction
 	std::vector<std::uint8_t> mustWake;
 	std::vector<Sums> sums;
 	std::vector<int> active; // contacts that carry an impulse, by run
@@ -108,6 +111,7 @@ private:
 	std::vector<std::int32_t> seat; // of each body: place of its velocities
 	Colouring colouring;
 	std::vector<BallPack> packs;
+	std::vector<RollingPack> rollingPacks; // parallel to packs; empty where no contact has rolling friction
 	std::vector<Course> courses;
 	std::vector<GeneralContact> generals, oldGenerals;
 	std::vector<Group> groups;
@@ -118,8 +122,8 @@ private:
 	std::vector<std::int32_t> selected, colourOf, order, byBlock, firstOfBlock;
 	std::vector<Chunk> blockChunks;
 
-	static bool isCompliant(const Contact& c) { return c.normalCompliance != 0 || c.tangentialCompliance != 0; }
-	bool isBall(const Contact& c) const { return c.ball && c.imageVelocity.isZero(0) && !isCompliant(c); }
+	bool isBall(std::int32_t id) const;
+	RollingContact* turningAt(std::int32_t id) { return turningOf.empty() || turningOf[id] < 0 ? nullptr : &turning[turningOf[id]]; }
 	/// Calls job(0) ... job(count - 1) in any order; each may write only what belongs to its index.
 	template <class Job> void share(std::size_t count, const Job& job)
 	{
@@ -141,6 +145,12 @@ private:
 	double normalVelocity(const Sleeper& s) const;
 	double normalVelocity(const Contact& c) const;
 	void addImpulse(const Contact& c, const Vector3& impulse);
+	void startTurning();
+	void beginAtTorques();
+	RollingPack* rollingFrom(std::size_t pack) { return turning.empty() ? nullptr : rollingPacks.data() + pack; }
+	void putTurning(RollingPack& pack, int lane, std::int32_t id) const;
+	void collectTorques();
+	void addTorque(const Contact& c, const Vector3& torque);
 	void takeSeats();
 	void beginAtImpulses();
 	void layOut(const std::vector<std::int32_t>& ids);
@@ -149,8 +159,9 @@ private:
 	void colourBlock(std::size_t block);
 	void fillBlock(std::size_t block);
 	BallPack emptyPack() const;
-	void putBall(BallPack& pack, int lane, std::int32_t id) const;
-	void putGeneral(GeneralContact& g, std::int32_t id) const;
+	void putBall(std::size_t pack, int lane, std::int32_t id);
+	void resizePacks(std::size_t count);
+	void putGeneral(GeneralContact& g, std::int32_t id);
 	void putSleeper(std::int32_t id);
 	void letIdleSleep();
 	void extrapolate(Extrapolation by, std::size_t firstSeat, std::size_t lastSeat);
@@ -168,6 +179,7 @@ private:
 	void sumMoment();
 	Vector3 relativeVelocity(const Contact& c) const;
 	Matrix3 compliantDelassus(const Contact& c, const Matrix3& frame) const;
+	void certify(const RollingContact& turn, const Contact& c, double normalImpulse, Sums& total) const;
 	void certify(const Contact& c, const Matrix3& frame, const Matrix3& W, const Vector3& r, Sums& total) const;
 };
 

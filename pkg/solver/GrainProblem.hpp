@@ -41,6 +41,16 @@ struct Contact {
 	Vector3 relativeVelocity = Vector3::Zero(); ///< out: U at the solution, imageVelocity included, gapVelocity and compliance not, global axes [m/s]
 };
 
+/// Rolling and twisting friction of a contact: a torque impulse M on body 2, minus M on body 1, against the relative angular velocity w of body 2,
+///
+///     |M_T| <= l R_N,  |M_N| <= m R_N,  each on its limit, and against its part of w, unless that part is zero.
+struct RollingFriction {
+	std::int32_t contact = 0;				///< index into GrainProblem::contacts
+	double rollingArm = 0, twistingArm = 0; ///< l, m >= 0 [m]
+	Vector3 drive = Vector3::Zero();		///< added to w: of bodies that turn, but that the velocities do not show [rad/s]
+	Vector3 torque = Vector3::Zero();		///< M; in: start of the iteration; out: solution, global axes [N m s]
+};
+
 /// A velocity gradient L that all bodies share, such as that of a periodic cell with inertia of its own: one more body, which every contact sees.
 ///
 /// The velocities of the bodies are those relative to the mean field, and U of a contact gains L b, where b = arm1 - arm2 is the vector between the
@@ -75,6 +85,7 @@ struct MeanField {
 struct GrainProblem {
 	std::vector<Body> bodies;
 	std::vector<Contact> contacts;
+	std::vector<RollingFriction> rolling; ///< of the contacts that have it, one each
 	std::optional<MeanField> meanField;
 };
 

@@ -54,6 +54,19 @@ void requireContacts(const GrainProblem& problem)
 	}
 }
 
+void requireRolling(const GrainProblem& problem)
+{
+	std::int32_t last = -1;
+	for (const RollingFriction& one : problem.rolling) {
+		if (one.contact <= last || one.contact >= std::int32_t(problem.contacts.size()))
+			throw std::invalid_argument("GrainProblem::rolling refers to contact " + std::to_string(one.contact) + " after " + std::to_string(last) +
+										"; each of the " + std::to_string(problem.contacts.size()) + " contacts may stand there once, in order");
+		last = one.contact;
+		if (const double least = std::min(one.rollingArm, one.twistingArm); least < 0)
+			refuse(problem, std::size_t(one.contact), "an arm of rolling friction is " + std::to_string(least) + ", must be >= 0");
+	}
+}
+
 void requireField(const GrainProblem& problem)
 {
 	if (!problem.meanField) return;
@@ -84,6 +97,7 @@ bool isFinite(const GrainProblem& problem)
 	for (const Contact& c : problem.contacts)
 		poison += 0 * (c.normal.sum() + c.arm1.sum() + c.arm2.sum() + c.imageVelocity.sum() + c.impulse.sum() + c.friction + c.gapVelocity +
 					   c.normalCompliance + c.tangentialCompliance);
+	for (const RollingFriction& one : problem.rolling) poison += 0 * (one.rollingArm + one.twistingArm + one.drive.sum() + one.torque.sum());
 	return poison == 0;
 }
 
@@ -105,6 +119,7 @@ bool SignoriniCoulombSolver::Workspace::runsAway(const GrainProblem& free, const
 {
 	GrainProblem further = free;
 	for (std::size_t i = 0; i < further.contacts.size(); ++i) further.contacts[i].impulse = solved.contacts[i].impulse;
+	further.rolling = solved.rolling;
 	SolverOptions endless = options;
 	endless.tolerance = std::numeric_limits<double>::min();
 	endless.maxIterations = CrushedContacts::furtherSweeps(done);
@@ -117,6 +132,7 @@ SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOpt
 {
 	requireOptions(options);
 	requireContacts(problem);
+	requireRolling(problem);
 	requireField(problem);
 	SolveReport report;
 	report.status = SolveStatus::notFinite;

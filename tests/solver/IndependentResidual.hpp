@@ -62,6 +62,11 @@ inline Velocities velocities(const GrainProblem& free, const GrainProblem& solve
 		velocity[c.body1] -= inverseMassMatrix(free.bodies[c.body1]) * lever(c.arm1) * c.impulse;
 		velocity[c.body2] += inverseMassMatrix(free.bodies[c.body2]) * lever(c.arm2) * c.impulse;
 	}
+	for (const RollingFriction& one : solved.rolling) {
+		const Contact& c = solved.contacts[one.contact];
+		velocity[c.body1].tail<3>() -= free.bodies[c.body1].inverseInertia * one.torque;
+		velocity[c.body2].tail<3>() += free.bodies[c.body2].inverseInertia * one.torque;
+	}
 	return velocity;
 }
 
@@ -95,6 +100,20 @@ inline double residual(const GrainProblem& free, const GrainProblem& solved)
 		const Vector3 F = c.impulse - nearestInCone(c.impulse - (u + c.friction * ut.norm() * c.normal) / Wnn, c.normal, c.friction);
 		above += F.dot(W * F);
 		below += c.impulse.dot(W * c.impulse);
+	}
+	for (const RollingFriction& one : solved.rolling) {
+		const Contact& c = solved.contacts[one.contact];
+		const Matrix3 W = free.bodies[c.body1].inverseInertia + free.bodies[c.body2].inverseInertia;
+		const double bound = std::max({W.row(0).lpNorm<1>(), W.row(1).lpNorm<1>(), W.row(2).lpNorm<1>()});
+		if (bound == 0) continue;
+		const double rn = c.impulse.dot(c.normal);
+		const Vector3 w = velocity[c.body2].tail<3>() - velocity[c.body1].tail<3>() + one.drive, z = one.torque - w / bound;
+		const Vector3 zt = z - z.dot(c.normal) * c.normal;
+		const Vector3 nearest = std::clamp(z.dot(c.normal), -one.twistingArm * rn, one.twistingArm * rn) * c.normal +
+								(zt.norm() > one.rollingArm * rn ? Vector3(one.rollingArm * rn * zt.normalized()) : zt);
+		const Vector3 F = one.torque - nearest;
+		above += F.dot(W * F);
+		below += one.torque.dot(W * one.torque);
 	}
 	return above == 0 ? 0 : below > 0 ? std::sqrt(above / below) : 1;
 }

@@ -20,10 +20,11 @@ template <class T> bool sameBytes(const std::vector<T>& a, const std::vector<T>&
 }
 
 /// Ten packs; of each the last lane lies against a body that cannot move, and in every second one lane is empty. Impulses inside, on and outside of
-/// their cones, some of them zero.
+/// their cones, some of them zero; likewise torques and their limits.
 struct Balls {
 	std::vector<BodyState> bodies = std::vector<BodyState>(81);
 	std::vector<BallPack> packs = std::vector<BallPack>(10);
+	std::vector<RollingPack> rolling = std::vector<RollingPack>(10);
 	FieldPass field{};
 
 	explicit Balls(unsigned seed)
@@ -57,16 +58,34 @@ struct Balls {
 				p.friction[lane] = i % 4 ? std::abs(normal(random)) : 0;
 				p.arm1[lane] = 1, p.arm2[lane] = -0.5;
 				p.inverseWn[lane] = p.inverseWt[lane] = 0.3;
+				RollingPack& roll = rolling[i];
+				if ((4 * i + lane) % 5 == 0) continue; // without
+				roll.rollingArm[lane] = std::abs(normal(random));
+				roll.twistingArm[lane] = lane % 2 ? 0 : std::abs(normal(random));
+				roll.inverseW[lane] = 0.3;
+				for (int k = 0; k < 3; ++k) {
+					roll.drive[k][lane] = i % 3 ? 0 : normal(random);
+					roll.torque[k][lane] = normal(random);
+					roll.increment[k][lane] = normal(random);
+					roll.direction[k][lane] = normal(random);
+				}
 			}
 	}
 };
 
 constexpr RoundOff roundOff{16 * std::numeric_limits<double>::epsilon(), 1e-10};
 
-CertificateSums certified(const Balls& balls)
+CertificateSums certified(const Balls& balls, bool rolls = false)
 {
-	return ballCertifyBaseline(balls.bodies.data(), balls.packs.data(), balls.packs.size(), roundOff, nullptr);
+	return ballCertifyBaseline(balls.bodies.data(), balls.packs.data(), rolls ? balls.rolling.data() : nullptr, balls.packs.size(), roundOff, nullptr);
 }
+
+struct Kind {
+	bool withField, rolls;
+	FieldPass* field(Balls& balls) const { return withField ? &balls.field : nullptr; }
+	RollingPack* rolling(Balls& balls) const { return rolls ? balls.rolling.data() : nullptr; }
+};
+constexpr Kind kinds[] = {{false, false}, {true, false}, {false, true}, {true, true}};
 
 /// Rows of W with 0 to 8 blocks beside the diagonal.
 template <int D> void expectSameProducts(BlockProduct plain, BlockProduct wide)
@@ -115,29 +134,34 @@ template <int D> void expectSameProducts(BlockProduct plain, BlockProduct wide)
 
 TEST(WideKernels, BallSweepHasTheBitsOfThePlainOne)
 {
-	for (const bool withField : {false, true}) {
+	for (const Kind& kind : kinds) {
 		Balls one(9), two = one;
-		const auto field = [&](Balls& of) { return withField ? &of.field : nullptr; };
-		const SweepNorms plain = ballSweepBaseline(one.bodies.data(), one.packs.data(), one.packs.size(), {0.4, 0.2}, field(one));
-		const SweepNorms wide = selectBallSweep()(two.bodies.data(), two.packs.data(), two.packs.size(), {0.4, 0.2}, field(two));
+		const auto sweep = [&](BallSweep kernel, Balls& of) {
+			return kernel(of.bodies.data(), of.packs.data(), kind.rolling(of), of.packs.size(), {0.4, 0.2}, kind.field(of));
+		};
+		const SweepNorms plain = sweep(ballSweepBaseline, one), wide = sweep(selectBallSweep(), two);
 		EXPECT_EQ(std::memcmp(&plain, &wide, sizeof plain), 0);
 		EXPECT_EQ(std::memcmp(&one.field, &two.field, sizeof one.field), 0);
-		EXPECT_TRUE(sameBytes(one.bodies, two.bodies) && sameBytes(one.packs, two.packs));
+		EXPECT_TRUE(sameBytes(one.bodies, two.bodies) && sameBytes(one.packs, two.packs) && sameBytes(one.rolling, two.rolling));
 	}
 }
 
 TEST(WideKernels, BallCertificateHasTheBitsOfThePlainOne)
 {
-	for (const bool withField : {false, true}) {
+	for (const Kind& kind : kinds) {
 		Balls one(10), two = one;
-		const auto field = [&](Balls& of) { return withField ? &of.field : nullptr; };
-		ballRebuildBaseline(one.bodies.data(), one.packs.data(), one.packs.size(), field(one));
-		selectBallRebuild()(two.bodies.data(), two.packs.data(), two.packs.size(), field(two));
+		const auto rebuild = [&](BallRebuild kernel, Balls& of) {
+			kernel(of.bodies.data(), of.packs.data(), kind.rolling(of), of.packs.size(), kind.field(of));
+		};
+		rebuild(ballRebuildBaseline, one);
+		rebuild(selectBallRebuild(), two);
 		EXPECT_EQ(std::memcmp(&one.field, &two.field, sizeof one.field), 0);
 		EXPECT_TRUE(sameBytes(one.bodies, two.bodies));
-		const double* gradient = withField ? one.field.gradient : nullptr;
-		const CertificateSums plain = ballCertifyBaseline(one.bodies.data(), one.packs.data(), one.packs.size(), roundOff, gradient);
-		const CertificateSums wide = selectBallCertify()(one.bodies.data(), one.packs.data(), one.packs.size(), roundOff, gradient);
+		const auto certify = [&](BallCertify kernel) {
+			const double* gradient = kind.withField ? one.field.gradient : nullptr;
+			return kernel(one.bodies.data(), one.packs.data(), kind.rolling(one), one.packs.size(), roundOff, gradient);
+		};
+		const CertificateSums plain = certify(ballCertifyBaseline), wide = certify(selectBallCertify());
 		EXPECT_EQ(std::memcmp(&plain, &wide, sizeof plain), 0);
 		EXPECT_GT(plain.map2, 0);
 	}
@@ -159,7 +183,7 @@ TEST(WideKernels, BlockProductsHaveTheBitsOfThePlainOnes)
 
 TEST(WideKernels, WhatIsNotFiniteNeverPassesAsSmall)
 {
-	ASSERT_TRUE(std::isfinite(certified(Balls(14)).map2));
+	ASSERT_TRUE(std::isfinite(certified(Balls(14)).map2) && std::isfinite(certified(Balls(14), true).map2));
 	for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()})
 		for (int k = 0; k < 3; ++k) {
 			for (std::size_t i = 0; i < 80; ++i) { // all are in some contact but those of the empty lanes
@@ -174,6 +198,9 @@ TEST(WideKernels, WhatIsNotFiniteNeverPassesAsSmall)
 				Balls balls(14);
 				balls.packs[i / 4].impulse[k][i % 4] = poison;
 				EXPECT_FALSE(std::isfinite(certified(balls).map2)) << poison << ", contact " << i;
+				balls = Balls(14);
+				balls.rolling[i / 4].torque[k][i % 4] = poison;
+				EXPECT_FALSE(std::isfinite(certified(balls, true).map2)) << poison << ", torque " << i;
 			}
 		}
 }
