@@ -52,14 +52,14 @@ static inline void rebuildOf(BodyState* bodies, const BallPack* packs, const Rol
 
 void BALL_REBUILD(BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, FieldPass* field)
 {
-	const auto rebuild = rolling ? (field ? rebuildOf<true, true> : rebuildOf<false, true>) : (field ? rebuildOf<true, false> : rebuildOf<false, false>);
+	const auto rebuild =
+			rolling ? (field ? rebuildOf<true, true> : rebuildOf<false, true>) : (field ? rebuildOf<true, false> : rebuildOf<false, false>);
 	rebuild(bodies, packs, rolling, count, field);
 }
 
 /// NaturalMap.hpp with everything multiplied by W_nn: with Z = W_nn r - (u + mu |u_t| n), a velocity, W_nn F = W_nn r - P_K(Z), since K is a cone.
-template <bool hasField, bool rolls>
-static inline CertificateSums certifyOf(const BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count,
-										RoundOff roundOff, const double* gradient)
+template <bool hasField, bool rolls> static inline CertificateSums
+certifyOf(const BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, RoundOff roundOff, const double* gradient)
 {
 	const Wide zero = all(0), unit = all(1), perSpeed = all(roundOff.perSpeed), most = all(roundOff.most), most2 = most * most;
 	Wide map2 = zero, impulse2 = zero, approach = zero, gradientSize = zero;

@@ -4,9 +4,8 @@
 
 namespace contactdynamics {
 
-template <bool hasField, bool rolls>
-static inline SweepNorms sweepOf(BodyState* bodies, BallPack* packs, RollingPack* rolling, std::size_t count, Extrapolation extrapolation,
-								 FieldPass* field)
+template <bool hasField, bool rolls> static inline SweepNorms sweepOf(BodyState* bodies, BallPack* packs, RollingPack* rolling, std::size_t count,
+																	  Extrapolation extrapolation, FieldPass* field)
 {
 	const Wide zero = all(0), relax = all(extrapolation.relax), momentum = all(extrapolation.momentum);
 	Wide increment2 = zero, impulse2 = zero, moment[9]{};

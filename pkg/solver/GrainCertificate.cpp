@@ -145,7 +145,8 @@ double GrainOperator::certificate()
 		Sums& total = sums[k];
 		if (k < packRuns) {
 			const std::size_t first = k * packsPerRun, count = std::min(packsPerRun, packs.size() - first);
-			const CertificateSums balls = ballCertify(state.data(), packs.data() + first, rollingFrom(first), count, roundOff, hasField() ? L : nullptr);
+			const CertificateSums balls =
+					ballCertify(state.data(), packs.data() + first, rollingFrom(first), count, roundOff, hasField() ? L : nullptr);
 			total.residual.add(balls.map2, balls.impulse2);
 			total.approach = balls.approach;
 		} else if (k < packRuns + generalRuns) {

@@ -142,7 +142,8 @@ void GrainOperator::extrapolate(Extrapolation by, std::size_t first, std::size_t
 void GrainOperator::visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by, FieldPass* field)
 {
 	if (accelerated) extrapolate(by, chunk.firstSeat, chunk.lastSeat);
-	norms = chunk.packs ? ballSweep(state.data(), packs.data() + chunk.firstPack, rollingFrom(chunk.firstPack), chunk.packs, by, field) : SweepNorms{};
+	norms = chunk.packs ? ballSweep(state.data(), packs.data() + chunk.firstPack, rollingFrom(chunk.firstPack), chunk.packs, by, field)
+						: SweepNorms{};
 	for (std::size_t k = chunk.firstGeneral; k < chunk.firstGeneral + chunk.generals; ++k) {
 		const SweepNorms one = contactdynamics::visit(generals[k], state.data(), by, field);
 		norms.increment2 += one.increment2;

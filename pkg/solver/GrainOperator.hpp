@@ -97,8 +97,8 @@ private:
 
 	std::vector<BodyState> state, sweepStart, direction; // by seat: velocities now, at the start of the last sweep, and of the search direction
 	std::vector<std::uint8_t> movable;
-	std::vector<Vector3> impulses; // per contact, global axes, inside the cone: those of the start, and from finish() on those of the end
-	std::vector<Vector3> kept;	   // likewise
+	std::vector<Vector3> impulses;		 // per contact, global axes, inside the cone: those of the start, and from finish() on those of the end
+	std::vector<Vector3> kept;			 // likewise
 	std::vector<RollingContact> turning; // parallel to GrainProblem::rolling
 	std::vector<Vector3> keptTorques;
 	std::vector<std::int32_t> turningOf; // by contact, -1: none; empty where no contact has rolling friction

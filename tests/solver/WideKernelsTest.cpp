@@ -77,7 +77,8 @@ constexpr RoundOff roundOff{16 * std::numeric_limits<double>::epsilon(), 1e-10};
 
 CertificateSums certified(const Balls& balls, bool rolls = false)
 {
-	return ballCertifyBaseline(balls.bodies.data(), balls.packs.data(), rolls ? balls.rolling.data() : nullptr, balls.packs.size(), roundOff, nullptr);
+	return ballCertifyBaseline(balls.bodies.data(), balls.packs.data(), rolls ? balls.rolling.data() : nullptr, balls.packs.size(), roundOff,
+							   nullptr);
 }
 
 struct Kind {
