@@ -158,6 +158,21 @@ void ContactDynamicsEngine::repair()
 	if (cellController) cellController->yieldToRepair(*scene, step->repairStrain, otherStress);
 	remainingOverlap = step->remainingOverlap;
 	repairDisplacement = step->repairDisplacement;
+	warnOfOverlap();
+}
+
+/// Overlaps this deep are no residue of the solve: the residual bounds velocities, and what it leaves of them moves bodies by as much as O.dt allows.
+void ContactDynamicsEngine::warnOfOverlap()
+{
+	constexpr Real deep = 0.1; // a grain that passes another one by half its radius a step is off by 0.06
+	const ContactDynamicsStep::Overlap& worst = step->worstOverlap;
+	if (warnedOfOverlap || !(worst.share > deep)) return;
+	warnedOfOverlap = true;
+	std::cerr << "WARNING: ContactDynamicsEngine: step " << scene->iter << ": bodies #" << worst.id1 << " and #" << worst.id2 << " overlap by "
+			  << worst.depth << " m, " << worst.share << " of their size. They were placed so, or they move too far in a step: O.dt = " << scene->dt
+			  << ", largest approach speed left by the solve " << maxApproachSpeed
+			  << " m/s. Bodies whose centres pass each other are lost to contact. Said once; see ContactDynamicsEngine.remainingOverlap."
+			  << std::endl;
 }
 
 boost::python::list ContactDynamicsEngine::freeVelocities() const { return step->velocitiesById(step->free()); }

@@ -33,9 +33,10 @@ private:
 	void solve();
 	void apply();
 	void repair();
+	void warnOfOverlap();
 
 	void requireAdmissible() const;
-	bool warnedOfUnconverged = false, warnedOfUnsolvable = false;
+	bool warnedOfUnconverged = false, warnedOfUnsolvable = false, warnedOfOverlap = false;
 
 public:
 	// clang-format off
@@ -65,7 +66,7 @@ public:
 			"Contacts are then solved by the closed form (34). ``contactdynamics.plane`` makes the disks."))
 		((int,ambiguousContacts,0,Attr::readonly,"Number of contacts in the last solve that violate the condition (33) for a unique solution, μ|W_TN| < W_NN with W the local Delassus operator and W_TN its coupling of tangential impulse and normal velocity [-]. Such a contact of a rigid body has several solutions or none (Painlevé's paradox): one of them is taken, sticking before sliding. "
 			"In three dimensions |W_TN| is the norm of both components and the condition is sufficient. Spheres that are not in clumps always fulfil it."))
-		((Real,maxPenetration,0,Attr::readonly,"Largest overlap of two bodies at the positions the last solve started from [m], ≥ 0."))
+		((Real,maxPenetration,0,Attr::readonly,"Largest overlap of two bodies at the positions the last solve started from [m], ≥ 0. A warning is given, once, when two bodies would end a step with an overlap of more than 0.1 of their size (the radius of the smaller sphere, the shorter lever arm where there is no sphere): placed so, or ``O.dt`` too large."))
 		((Real,meanPenetration,0,Attr::readonly,"Mean overlap of the active contacts at the positions the last solve started from, those with a gap counted as 0 [m]."))
 		((Real,maxApproachSpeed,0,Attr::readonly,"Largest speed at which a contact still violates its condition after the last solve, max(0, −(U_N + max(0,g)/h)) for the default law [m/s]; divided by the speed gravity gives in a step, h·g, it tells what the residual means in motion."))
 		((Real,repairRate,0.1,Attr::triggerPostLoad,"Share of the overlap beyond :yref:`allowedOverlap<ContactDynamicsEngine.allowedOverlap>` that penetration repair takes away in a step [-], 0 … 1, all overlaps in the same proportion: so much that the deepest one shrinks by 1e-4 of its contact's size, but at least 0.006 and at most this rate. "
@@ -87,7 +88,7 @@ public:
 			"``q`` [m/s] relative velocity without impulses, gap velocity max(0,g)/h (by contactLaw) added to its normal component; ``friction`` [-]; ``impulse`` r [N·s] and ``velocity`` u [m/s] of the solution, three numbers a contact in the frame of :yref:`ContactDynamicsPhys.localVelocity`, normal first; ``bodies`` the two ids of each contact (the clump of a member). "
 			"W is assembled by this call. Where a :yref:`ContactDynamicsCellController` holds a stress, the motion of the cell is part of W: it is full then, and written out for at most 1000 contacts; a component of the strain rate that stands at its bound counts as given. ``contactdynamics.fclib.write`` puts all into a file. RuntimeError when no step has been solved, or when there are too many contacts for a full W.")
 		.def("convergenceNorms",&ContactDynamicsEngine::convergenceNorms,"What other programs and papers call the error, at the solution of the last step, as a dictionary of numbers [-]; none steers the solver, and W is assembled by this call. With u = W r + q as in :yref:`lastProblem<ContactDynamicsEngine.lastProblem>`, ΔR the change of a contact's impulse R by one more exact local solution with all others held, ΔV = W_cc ΔR, "
-			"sums and means over the ``active`` contacts (an impulse before or after): ``naturalMap`` the :yref:`residual<ContactDynamicsEngine.residual>` once more, from the assembled W; ``siconos`` √Σ|r − P(r − u − μ|u_T|n)|² / max(|q|, |r|, |u|), which adds impulses and velocities and so depends on units; ``quadDV`` √mean|ΔV|² / √mean|W_cc R|², "
+			"sums and means over the ``active`` contacts (an impulse before or after): ``naturalMap`` the :yref:`residual<ContactDynamicsEngine.residual>` once more, from the assembled W (without the torques of rolling friction, which are in q); ``siconos`` √Σ|r − P(r − u − μ|u_T|n)|² / max(|q|, |r|, |u|), which adds impulses and velocities and so depends on units; ``quadDV`` √mean|ΔV|² / √mean|W_cc R|², "
 			"``quadDVR`` √mean(|ΔV|²|R|²) / mean(R·W_cc R), ``meanDVoR`` Σ R·ΔV / Σ R·W_cc R: the norm Quad of LMGC90, which stops when all three are below its tolerance in magnitude; ``quadraticAccuracy`` √(Σ|ΔR|² / Σ|R|²) and ``largestAccuracy`` max|ΔR| / √mean|R|²: the quadratic and the max distance of section 8, in which the accuracy of 0.15 % in section 9.1 is read "
 			"(the paper gives no formula). RuntimeError when no step has been solved.")
 	);

@@ -37,6 +37,11 @@ struct ContactDynamicsStep {
 	Real remainingOverlap = 0;				  // largest at the end of the step, repair included [m]
 	Real repairDisplacement = 0;			  // see PenetrationRepair::largestDisplacement() [m]
 	Matrix3r repairStrain = Matrix3r::Zero(); // of the periodic cell, by repair [-]
+	struct Overlap {						  // at the end of the step, without repair
+		Real share = 0;						  // in sizes of the contact [-]
+		Real depth = 0;						  // [m]
+		int id1 = -1, id2 = -1;
+	} worstOverlap; // by share; springs that are pressed do not count
 
 	void collectBodies(Scene& scene, const IntegratorPlan& plan);
 	/// @param warmStart  factor for the stored impulses: ratio of time steps, or 0 to start from nothing
@@ -142,6 +147,7 @@ private:
 	Real gapAfterMotion(std::size_t contact) const;
 	Real gapToRepair(const TouchingPair& pair) const;
 	TouchingPair pairFrom(std::size_t first) const;
+	void noteOverlap(const TouchingPair& pair);
 	void choosePairs();
 	void setPseudoImpulse(const TouchingPair& pair, Real pseudoImpulse);
 	void displace(Scene& scene, Real share, Real allowed, const Matrix3r& cellMobility);

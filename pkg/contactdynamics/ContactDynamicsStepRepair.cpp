@@ -58,6 +58,16 @@ ContactDynamicsStep::TouchingPair ContactDynamicsStep::pairFrom(std::size_t firs
 	return pair;
 }
 
+void ContactDynamicsStep::noteOverlap(const TouchingPair& pair)
+{
+	for (std::size_t i = pair.first; i < pair.last; i++) {
+		const contactdynamics::Contact& contact = problem.contacts[i];
+		const Real depth = -(links[i].gap + h * contact.normal.dot(contact.relativeVelocity));
+		if (contact.normalCompliance > 0 || !(depth > worstOverlap.share * pair.size)) continue;
+		worstOverlap = {depth / pair.size, depth, links[i].id1, links[i].id2};
+	}
+}
+
 void ContactDynamicsStep::setPseudoImpulse(const TouchingPair& pair, Real pseudoImpulse)
 {
 	for (std::size_t i = pair.first; i < pair.last; i++)
@@ -71,6 +81,7 @@ void ContactDynamicsStep::choosePairs()
 	for (std::size_t i = 0; i < links.size();) {
 		const TouchingPair pair = pairFrom(i);
 		i = pair.last;
+		noteOverlap(pair);
 		if (pair.gap > 2 * PenetrationRepair::largestWay * pair.size || problem.contacts[pair.first].normalCompliance > 0)
 			setPseudoImpulse(pair, 0);
 		else
@@ -82,6 +93,7 @@ void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowe
 {
 	remainingOverlap = repairDisplacement = 0;
 	repairStrain.setZero();
+	worstOverlap = Overlap();
 	Real deepest = 0; // to be repaired, in sizes
 	choosePairs();
 	for (const TouchingPair& pair : pairs) {

@@ -120,6 +120,19 @@ def test_run_in_the_background() -> None:
     assert O.iter == 600 and abs(state(1).pos[2] - 1) < 1e-9
 
 
+@pytest.mark.parametrize("heights, step", [((1.0, 1.5), 1e-3), ((2.0, 5.0), 20.0)])
+def test_deep_overlaps_are_told_once(heights: tuple[float, float], step: float, capfd) -> None:
+    """Balls placed in each other; a time step in which the tolerance lets balls of 1 m sink in by 1e-4 g h^2 = 0.4 m."""
+    material()
+    O.bodies.append(utils.wall(0, axis=2, sense=1))
+    for height in heights:
+        grain((0, 0, height))
+    equip(step)
+    steps(5)
+    told = [line for line in capfd.readouterr().err.splitlines() if "overlap by" in line]
+    assert len(told) == 1 and re.search("bodies #[01] and #[12] ", told[0]) and f"O.dt = {step:g}" in told[0]
+
+
 def test_engines_assigned_during_a_step() -> None:
     """A PyRunner replaces the list while it runs: YADE takes the new one at the next step."""
     material()
