@@ -49,11 +49,7 @@ TEST(Allocation, NoneInASolveOnceWarm)
 	for (const Case& one : {Case{0.3, false, 1, false}, Case{1, false, 1, false}, Case{0.3, true, 1, false}, Case{0.3, false, 2, false},
 							Case{0.3, false, 1, true}, Case{1, true, 1, true}}) {
 		GrainProblem given = scenes::heap(one.threads > 1 ? 12 : 8, 7, one.friction, false, one.general);
-		given.rolling.resize(one.rolls ? given.contacts.size() : 0);
-		for (std::size_t i = 0; i < given.rolling.size(); ++i) {
-			given.rolling[i].contact = std::int32_t(i);
-			given.rolling[i].rollingArm = 0.05;
-		}
+		if (one.rolls) scenes::addRollingFriction(given, 0.05);
 		GrainProblem problem = given;
 		SolverOptions options;
 		options.threads = one.threads;

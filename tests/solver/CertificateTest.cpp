@@ -66,6 +66,18 @@ TEST(Certificate, KnowsMeanFieldImmobileBodiesAndImages)
 	for (const int sweeps : {0, 1, 5}) expectIndependentResidual(problem, sweeps);
 }
 
+TEST(Certificate, KnowsRollingFriction)
+{
+	for (const double friction : {0.0, 0.4})
+		for (const bool general : {false, true})
+			for (const int sweeps : {0, 1, 2, 5, 20}) {
+				SCOPED_TRACE(testing::Message() << friction << general);
+				GrainProblem problem = scenes::heap(5, 3, friction, false, general);
+				scenes::addRollingFriction(problem, 0.05);
+				expectIndependentResidual(problem, sweeps);
+			}
+}
+
 TEST(Certificate, IsTheSameInAnyUnits)
 {
 	for (const double mass : {1e-60, 1.0, 1e60})

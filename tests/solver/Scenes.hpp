@@ -103,6 +103,22 @@ inline GrainProblem heap(int side, unsigned seed, double friction = 0.3, bool he
 	return problem;
 }
 
+/// Rolling friction on all contacts but every fifth, with twisting friction on two thirds of these, and a drive on some.
+inline void addRollingFriction(GrainProblem& problem, double arm)
+{
+	std::mt19937_64 random(1);
+	std::normal_distribution<double> normal;
+	for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+		if (i % 5 == 4) continue;
+		RollingFriction one;
+		one.contact = std::int32_t(i);
+		one.rollingArm = arm;
+		one.twistingArm = i % 3 == 0 ? 0 : 0.5 * arm;
+		if (i % 7 == 0) one.drive = 0.1 * Vector3(normal(random), normal(random), normal(random));
+		problem.rolling.push_back(one);
+	}
+}
+
 inline double kineticEnergy(const GrainProblem& problem)
 {
 	double energy = 0;
