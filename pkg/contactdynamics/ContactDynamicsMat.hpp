@@ -26,7 +26,7 @@ public:
 		((Real,kn,0,Attr::triggerPostLoad,"Normal stiffness of the contact (mortar) [N/m], ≥ 0: R_N = −kn g. Default 0: rigid. Oscillations that the step resolves keep their energy, unresolved ones are damped; kn → ∞ tends to the rigid contact that pushes overlaps out (24)."))
 		((Real,ks,0,Attr::triggerPostLoad,"Tangential stiffness of the contact [N/m], ≥ 0: a contact that sticks is held by a spring, Coulomb's limit stays. Default 0: rigid."))
 		((Real,normalDamping,0,Attr::triggerPostLoad,"Dashpot beside :yref:`kn<ContactDynamicsMat.kn>` [N·s/m], ≥ 0: acts while the bodies overlap and never pulls. Without kn it has no effect. Default 0."))
-		((Real,rollingFriction,0,Attr::triggerPostLoad,"Rolling friction coefficient of spheres [-], ≥ 0: the torque against rolling is at most this times ρ R_N, with ρ = r₁r₂/(r₁+r₂), or the radius on a flat body. Only takes energy. Default 0."))
+		((Real,rollingFriction,0,Attr::triggerPostLoad,"Rolling friction coefficient of spheres [-], ≥ 0: the torque against rolling is at most this times ρ R_N, with ρ = r₁r₂/(r₁+r₂), or the radius on a flat body; of a cohesive contact the pull-off force is added to R_N. Only takes energy. Default 0."))
 		((Real,twistingFriction,0,Attr::triggerPostLoad,"The same about the contact normal [-], ≥ 0. Default 0."))
 		,
 		createIndex();

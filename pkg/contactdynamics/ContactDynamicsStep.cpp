@@ -360,6 +360,8 @@ void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string&
 		requireUsable(link, contact);
 		link.plain = link.phys->isPlain();
 		link.pushed = link.phys->pseudoImpulse != 0;
+		if (link.phys->rollingArm == 0 && link.phys->twistingArm == 0 && link.phys->torqueImpulse != Vector3r::Zero())
+			link.phys->torqueImpulse = Vector3r::Zero(); // of arms that have been set to 0
 		contact.impulse = (link.swapped ? -warmStart : warmStart) * link.phys->impulse;
 		contact.gapVelocity = velocitySignorini ? 0 : (quasiInelasticShock ? std::max(Real(0), link.gap) : link.gap) / h;
 		if (velocitySignorini) link.solved = link.solved && (forecast(link, contact) || ShiftedContacts::isBonded(*link.phys));

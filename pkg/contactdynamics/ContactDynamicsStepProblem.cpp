@@ -38,7 +38,7 @@ contactdynamics::BlockProblem ContactDynamicsStep::assembledProblem(const char* 
 		frames[i] = sign * contactdynamics::contactFrame(sign * grains.contacts[i].normal);
 	}
 	contactdynamics::BlockProblem blocks = contactdynamics::assembled(grains, frames);
-	if (shifted.empty() && problem.rolling.empty() &&
+	if (shifted.empty() &&
 		!problem.meanField) // then nothing but gravity and other known forces is in q: from these, and not from u - W r, for an independent check
 		for (std::size_t i = 0; i < frames.size(); i++) {
 			const contactdynamics::Contact& contact = grains.contacts[i];

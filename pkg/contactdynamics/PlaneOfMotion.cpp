@@ -24,6 +24,11 @@ bool inPlane(const Contact& contact, int axis)
 	return contact.normal[axis] == 0 && contact.arm1[axis] == 0 && contact.arm2[axis] == 0 && contact.imageVelocity[axis] == 0 &&
 		   contact.impulse[axis] == 0;
 }
+bool inPlane(const contactdynamics::RollingFriction& friction, int axis)
+{
+	const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+	return friction.drive[b] == 0 && friction.drive[c] == 0 && friction.torque[b] == 0 && friction.torque[c] == 0;
+}
 template <class Item> bool allInPlane(const std::vector<Item>& items, int axis)
 {
 	for (const Item& item : items)
@@ -38,7 +43,7 @@ int PlaneOfMotion::axisOf(const GrainProblem& problem)
 	for (const contactdynamics::Body& body : problem.bodies) movable = movable || body.inverseMass != contactdynamics::Vector3::Zero();
 	if (!movable) return -1;
 	for (int axis = 0; axis < 3; axis++)
-		if (allInPlane(problem.bodies, axis) && allInPlane(problem.contacts, axis)) return axis;
+		if (allInPlane(problem.bodies, axis) && allInPlane(problem.contacts, axis) && allInPlane(problem.rolling, axis)) return axis;
 	return -1;
 }
 

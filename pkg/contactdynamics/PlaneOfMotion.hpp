@@ -8,8 +8,8 @@ namespace yade {
 /// Two-dimensional scenes: bodies that move in a coordinate plane only (State.blockedDOFs such as 'zXY'), and contacts that lie in it.
 namespace PlaneOfMotion {
 /// Axis normal to the plane (0, 1, 2), or -1 when there is none: every movable body has its translation along the axis and the rotations about the
-/// other two blocked, no body has a velocity of that kind, and normals, lever arms and image velocities have no component along the axis. All
-/// comparisons are exact.
+/// other two blocked, no body has a velocity of that kind, no belt turns out of it, and normals, lever arms and image velocities have no component
+/// along the axis. All comparisons are exact.
 int axisOf(const contactdynamics::GrainProblem& problem);
 
 /// Plane with the given normal axis: "xy", "yz", "zx", or "" for -1.

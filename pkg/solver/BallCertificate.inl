@@ -107,8 +107,8 @@ certifyOf(const BodyState* bodies, const BallPack* packs, const RollingPack* rol
 
 		const RollingPack& roll = rolling[pack - packs];
 		const Vector torque = load(roll.torque), map = torque - improvedTorque(roll, torque, two.w - one.w, n, rn);
-		const Wide Ww = one.inverseInertia + two.inverseInertia, size2 = dot(map, map);
-		const Wide noise = perSpeed * (sizeOf(one.w) + sizeOf(two.w) + sizeOf(load(roll.drive))) * load(roll.inverseW);
+		const Wide Ww = load(roll.mobility), size2 = dot(map, map);
+		const Wide noise = perSpeed * (sizeOf(one.w) + sizeOf(two.w) + sizeOf(load(roll.drive))) * load(roll.inverseMobility);
 		map2 += (size2 > noise * noise ? Ww * size2 : zero) + zero * size2;
 		impulse2 += Ww * dot(torque, torque);
 	}

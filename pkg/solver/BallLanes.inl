@@ -109,7 +109,7 @@ inline void prefetchBodies(const BodyState* bodies, const BallPack& pack)
 /// @param spin  angular velocity of body 2 minus that of body 1
 inline Vector improvedTorque(const RollingPack& rolling, const Vector& torque, const Vector& spin, const Vector& n, Wide normalImpulse)
 {
-	const Vector trial = torque - load(rolling.inverseW) * (spin + load(rolling.drive));
+	const Vector trial = torque - load(rolling.inverseMobility) * (spin + load(rolling.drive));
 	const Wide most = load(rolling.twistingArm) * normalImpulse, limit = load(rolling.rollingArm) * normalImpulse;
 	Wide along = dot(trial, n);
 	const Vector across = trial - along * n;

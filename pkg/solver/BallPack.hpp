@@ -36,7 +36,7 @@ struct alignas(64) BallPack {
 /// Rolling and twisting friction of the four contacts of a BallPack, see RollingContact.hpp; zeros in a lane without.
 struct alignas(64) RollingPack {
 	double rollingArm[4], twistingArm[4];				   // [m]
-	double inverseW[4];									   // [kg m2]
+	double mobility[4], inverseMobility[4];				   // [1/(kg m2)], [kg m2]
 	double drive[3][4];									   // [rad/s]
 	double torque[3][4], increment[3][4], direction[3][4]; // [N m s]
 };

@@ -65,7 +65,7 @@ template <bool hasField, bool rolls> static inline SweepNorms sweepOf(BodyState*
 			store(roll.increment, dm);
 			one.w = one.w - one.inverseInertia * dm;
 			two.w = two.w + two.inverseInertia * dm;
-			const Wide Ww = one.inverseInertia + two.inverseInertia;
+			const Wide Ww = load(roll.mobility);
 			increment2 += Ww * dot(dm, dm);
 			impulse2 += Ww * dot(torque, torque);
 		}

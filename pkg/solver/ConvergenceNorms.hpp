@@ -21,7 +21,7 @@ namespace contactdynamics {
 /// goes back to the program of the paper, and the distance is taken to the impulses of one more iteration, as there. All are 0 when no contact is
 /// active; the denominators are 1 when no contact has an impulse.
 struct ConvergenceNorms {
-	double naturalMap = 0; ///< residual of the solver, see NaturalMap.hpp
+	double naturalMap = 0; ///< residual of the solver, see NaturalMap.hpp; torques of rolling friction count as given
 	double siconos = 0;	   ///< see Measure::siconos
 	double quadDV = 0, quadDVR = 0, meanDVoR = 0;
 	double quadraticAccuracy = 0, largestAccuracy = 0;

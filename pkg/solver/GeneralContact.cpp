@@ -60,15 +60,15 @@ SweepNorms visit(GeneralContact& c, BodyState* bodies, Extrapolation extrapolati
 	SweepNorms norms{dr.dot(c.W * dr), r.dot(c.W * r)};
 	if (!c.rolling) return norms;
 
-	RollingContact& turn = *c.rolling;
-	const Vector3 aheadM = extrapolation.relax * turn.increment + extrapolation.momentum * turn.direction, before = turn.torque + aheadM;
-	turn.direction = turn.increment + aheadM;
-	turn.torque = turn.improved(before, w2 - w1, c.frame.row(0), r[0]);
-	const Vector3 dM = turn.increment = turn.torque - before;
-	if (c.body1 >= 0) w1 -= c.mobility1->inverseInertia * dM;
-	if (c.body2 >= 0) w2 += c.mobility2->inverseInertia * dM;
-	norms.increment2 += dM.dot(turn.W * dM);
-	norms.impulse2 += turn.torque.dot(turn.W * turn.torque);
+	RollingContact& roll = *c.rolling;
+	const Vector3 turnAhead = extrapolation.relax * roll.increment + extrapolation.momentum * roll.direction, before = roll.torque + turnAhead;
+	roll.direction = roll.increment + turnAhead;
+	roll.torque = roll.improved(before, w2 - w1, c.frame.row(0), r[0]);
+	const Vector3 dm = roll.increment = roll.torque - before;
+	if (c.body1 >= 0) w1 -= c.mobility1->inverseInertia * dm;
+	if (c.body2 >= 0) w2 += c.mobility2->inverseInertia * dm;
+	norms.increment2 += roll.mobility * dm.squaredNorm();
+	norms.impulse2 += roll.mobility * roll.torque.squaredNorm();
 	return norms;
 }
 

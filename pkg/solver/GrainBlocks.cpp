@@ -73,7 +73,7 @@ void GrainOperator::colourBlock(std::size_t block)
 	std::size_t next[kinds + 1] = {};
 	for (std::size_t i = first; i < last; ++i) {
 		const Contact& c = contacts[byBlock[i]];
-		colourOf[i] = 2 * colouring.assign(indexOf(c.body1), indexOf(c.body2)) + (isBall(byBlock[i]) ? 0 : 1);
+		colourOf[i] = 2 * colouring.assign(indexOf(c.body1), indexOf(c.body2)) + (isBall(c) ? 0 : 1);
 		++next[colourOf[i] + 1];
 	}
 	Chunk& chunk = blockChunks[block];

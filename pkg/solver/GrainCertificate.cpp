@@ -234,7 +234,7 @@ void GrainOperator::finish(SolveReport& report)
 	report.maxApproachSpeed = maxApproachSpeed;
 	collectImpulses(impulses);
 	collectTorques();
-	for (std::size_t k = 0; k < turning.size(); ++k) problem->rolling[k].torque = turning[k].torque;
+	for (std::size_t k = 0; k < rollingContacts.size(); ++k) problem->rolling[k].torque = rollingContacts[k].torque;
 	active.assign((impulses.size() + perRun - 1) / perRun, 0);
 	inRuns(impulses.size(), [this](std::size_t i) {
 		Contact& c = problem->contacts[i];

@@ -10,18 +10,11 @@ constexpr std::size_t packsPerChunk = 16, generalsPerChunk = 32; // a microsecon
 
 } // namespace
 
-bool GrainOperator::isBall(std::int32_t id) const
-{
-	const Contact& c = problem->contacts[id];
-	const bool compliant = c.normalCompliance != 0 || c.tangentialCompliance != 0;
-	return c.ball && c.imageVelocity.isZero(0) && !compliant;
-}
-
 void GrainOperator::putSleeper(std::int32_t id)
 {
 	const Contact& c = problem->contacts[id];
 	impulses[id].setZero();
-	if (RollingContact* turn = turningAt(id)) turn->stop();
+	if (RollingContact* rolling = rollingAt(id)) rolling->stop();
 	sleepers.push_back({c.normal, c.ball ? c.gapVelocity + c.imageVelocity.dot(c.normal) : c.gapVelocity, c.normal.dot(c.arm1 - c.arm2),
 						seat[c.body1], seat[c.body2], id, !c.ball});
 }
@@ -39,13 +32,13 @@ BallPack GrainOperator::emptyPack() const
 void GrainOperator::resizePacks(std::size_t count)
 {
 	packs.resize(count, emptyPack());
-	if (!turning.empty()) rollingPacks.resize(count, RollingPack{});
+	if (!rollingContacts.empty()) rollingPacks.resize(count, RollingPack{});
 }
 
 void GrainOperator::putBall(std::size_t at, int lane, std::int32_t id)
 {
 	BallPack& pack = packs[at];
-	if (!turningOf.empty() && turningOf[id] >= 0) putTurning(rollingPacks[at], lane, id);
+	if (const RollingContact* rolling = rollingAt(id)) rolling->put(rollingPacks[at], lane);
 	const Contact& c = problem->contacts[id];
 	const Body &b1 = problem->bodies[c.body1], &b2 = problem->bodies[c.body2];
 	const double a1 = c.arm1.dot(c.normal), a2 = c.arm2.dot(c.normal);
@@ -85,7 +78,7 @@ void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id)
 	g.friction = c.friction;
 	g.local = OneContact(g.W);
 	g.impulse = g.frame * impulses[id];
-	g.rolling = turningAt(id);
+	g.rolling = rollingAt(id);
 	g.increment.setZero();
 	g.direction.setZero();
 }
@@ -110,7 +103,7 @@ void GrainOperator::layOutByColour(const std::vector<std::int32_t>& ids)
 	colourOf.resize(ids.size());
 	for (std::size_t i = 0; i < ids.size(); ++i) {
 		const Contact& c = contacts[ids[i]];
-		colourOf[i] = 2 * colouring.assign(indexOf(c.body1), indexOf(c.body2)) + (isBall(ids[i]) ? 0 : 1);
+		colourOf[i] = 2 * colouring.assign(indexOf(c.body1), indexOf(c.body2)) + (isBall(c) ? 0 : 1);
 		++count[colourOf[i] + 1];
 	}
 	for (int k = 0; k < kinds; ++k) count[k + 1] += count[k];
@@ -163,13 +156,13 @@ void GrainOperator::letIdleSleep()
 			if (p.id[k] < 0) continue;
 			bool carries = false;
 			for (int j = 0; j < 3; ++j) carries = carries || p.impulse[j][k] != 0 || p.increment[j][k] != 0 || p.direction[j][k] != 0;
-			const RollingContact* turn = turningAt(p.id[k]);
-			carries = carries || (turn && turn->carries());
+			const RollingContact* rolling = rollingAt(p.id[k]);
+			carries = carries || (rolling && rolling->carries());
 			sort(p.id[k], carries, stateOf(contacts[p.id[k]].body1).inverseMass + stateOf(contacts[p.id[k]].body2).inverseMass);
 		}
 	for (const GeneralContact& g : generals) {
-		const bool turns = g.rolling && g.rolling->carries();
-		sort(g.id, turns || !g.impulse.isZero(0) || !g.increment.isZero(0) || !g.direction.isZero(0), g.W(0, 0));
+		const bool carriesTorque = g.rolling && g.rolling->carries();
+		sort(g.id, carriesTorque || !g.impulse.isZero(0) || !g.increment.isZero(0) || !g.direction.isZero(0), g.W(0, 0));
 	}
 	if (5 * idle < awake) return; // not worth the move
 

@@ -36,7 +36,7 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 		impulses[i] = none ? Vector3(Vector3::Zero()) : insideCone(c.impulse, c.normal, c.friction);
 	});
 	startField();
-	startTurning();
+	startRolling();
 	freeVelocities();
 	sums.assign((contacts.size() + perRun - 1) / perRun, Sums{});
 	inRuns(contacts.size(), [&](std::size_t i) {
@@ -120,8 +120,8 @@ void GrainOperator::keep()
 {
 	collectImpulses(kept);
 	collectTorques();
-	keptTorques.resize(turning.size());
-	for (std::size_t k = 0; k < turning.size(); ++k) keptTorques[k] = turning[k].torque;
+	keptTorques.resize(rollingContacts.size());
+	for (std::size_t k = 0; k < rollingContacts.size(); ++k) keptTorques[k] = rollingContacts[k].torque;
 }
 
 void GrainOperator::exchangeKept()
@@ -129,7 +129,7 @@ void GrainOperator::exchangeKept()
 	collectImpulses(impulses);
 	impulses.swap(kept);
 	collectTorques();
-	for (std::size_t k = 0; k < turning.size(); ++k) turning[k].torque.swap(keptTorques[k]);
+	for (std::size_t k = 0; k < rollingContacts.size(); ++k) rollingContacts[k].torque.swap(keptTorques[k]);
 	freeVelocities();
 	beginAtImpulses();
 }

@@ -97,11 +97,11 @@ private:
 
 	std::vector<BodyState> state, sweepStart, direction; // by seat: velocities now, at the start of the last sweep, and of the search direction
 	std::vector<std::uint8_t> movable;
-	std::vector<Vector3> impulses;		 // per contact, global axes, inside the cone: those of the start, and from finish() on those of the end
-	std::vector<Vector3> kept;			 // likewise
-	std::vector<RollingContact> turning; // parallel to GrainProblem::rolling
+	std::vector<Vector3> impulses; // per contact, global axes, inside the cone: those of the start, and from finish() on those of the end
+	std::vector<Vector3> kept;	   // likewise
+	std::vector<RollingContact> rollingContacts; // parallel to GrainProblem::rolling
 	std::vector<Vector3> keptTorques;
-	std::vector<std::int32_t> turningOf; // by contact, -1: none; empty where no contact has rolling friction
+	std::vector<std::int32_t> rollingOf; // by contact, -1: none; empty where no contact has rolling friction
 	std::vector<std::uint8_t> mustWake;
 	std::vector<Sums> sums;
 	std::vector<int> active; // contacts that carry an impulse, by run
@@ -122,8 +122,9 @@ private:
 	std::vector<std::int32_t> selected, colourOf, order, byBlock, firstOfBlock;
 	std::vector<Chunk> blockChunks;
 
-	bool isBall(std::int32_t id) const;
-	RollingContact* turningAt(std::int32_t id) { return turningOf.empty() || turningOf[id] < 0 ? nullptr : &turning[turningOf[id]]; }
+	static bool isCompliant(const Contact& c) { return c.normalCompliance != 0 || c.tangentialCompliance != 0; }
+	bool isBall(const Contact& c) const { return c.ball && c.imageVelocity.isZero(0) && !isCompliant(c); }
+	RollingContact* rollingAt(std::int32_t id) { return rollingOf.empty() || rollingOf[id] < 0 ? nullptr : &rollingContacts[rollingOf[id]]; }
 	/// Calls job(0) ... job(count - 1) in any order; each may write only what belongs to its index.
 	template <class Job> void share(std::size_t count, const Job& job)
 	{
@@ -145,10 +146,9 @@ private:
 	double normalVelocity(const Sleeper& s) const;
 	double normalVelocity(const Contact& c) const;
 	void addImpulse(const Contact& c, const Vector3& impulse);
-	void startTurning();
+	void startRolling();
 	void beginAtTorques();
-	RollingPack* rollingFrom(std::size_t pack) { return turning.empty() ? nullptr : rollingPacks.data() + pack; }
-	void putTurning(RollingPack& pack, int lane, std::int32_t id) const;
+	RollingPack* rollingFrom(std::size_t pack) { return rollingContacts.empty() ? nullptr : rollingPacks.data() + pack; }
 	void collectTorques();
 	void addTorque(const Contact& c, const Vector3& torque);
 	void takeSeats();
@@ -159,7 +159,7 @@ private:
 	void colourBlock(std::size_t block);
 	void fillBlock(std::size_t block);
 	BallPack emptyPack() const;
-	void putBall(std::size_t pack, int lane, std::int32_t id);
+	void putBall(std::size_t at, int lane, std::int32_t id);
 	void resizePacks(std::size_t count);
 	void putGeneral(GeneralContact& g, std::int32_t id);
 	void putSleeper(std::int32_t id);
@@ -179,7 +179,7 @@ private:
 	void sumMoment();
 	Vector3 relativeVelocity(const Contact& c) const;
 	Matrix3 compliantDelassus(const Contact& c, const Matrix3& frame) const;
-	void certify(const RollingContact& turn, const Contact& c, double normalImpulse, Sums& total) const;
+	void certify(const RollingContact& rolling, const Contact& c, double normalImpulse, Sums& total) const;
 	void certify(const Contact& c, const Matrix3& frame, const Matrix3& W, const Vector3& r, Sums& total) const;
 };
 

@@ -18,6 +18,8 @@ namespace contactdynamics {
 ///
 ///     residual = sqrt( sum F^T W_cc F / sum r^T W_cc r )                                                 [-]
 ///
+/// A contact with rolling friction adds F = M - P(M - w / W_w) and its torque M, both with W_w (RollingContact.hpp), to the two sums.
+///
 /// It is 0 when all F are zero, also when all r are zero, 1 when all r are zero but some F is not, not a number when a sum overflows. An F below the
 /// round-off of the velocities it is made of (W_nn |F| <= 16 eps V, V the sum of the speeds that enter u) carries no information and counts as zero:
 /// otherwise grains that fly side by side and touch would be iterated for ever.

@@ -1,17 +1,47 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "RollingContact.hpp"
 
+#include "BallPack.hpp"
+
+#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 namespace contactdynamics {
 
-RollingContact::RollingContact(const RollingFriction& friction, const Body& body1, const Body& body2)
-	: rollingArm(friction.rollingArm), twistingArm(friction.twistingArm), drive(friction.drive), W(body1.inverseInertia + body2.inverseInertia),
+RollingContact::RollingContact(const RollingFriction& friction, const GrainProblem& problem)
+	: rollingArm(friction.rollingArm), twistingArm(friction.twistingArm), drive(friction.drive), mobility(0), inverseMobility(0),
 	  torque(friction.torque), increment(Vector3::Zero()), direction(Vector3::Zero())
 {
-	const double largest = W.cwiseAbs().rowwise().sum().maxCoeff(); // at least the largest eigenvalue; equal to it for balls
-	inverseW = largest > 0 ? 1 / largest : 0;
+	const Contact& c = problem.contacts[friction.contact];
+	const Body &one = problem.bodies[c.body1], &two = problem.bodies[c.body2];
+	const Matrix3 W = one.inverseInertia + two.inverseInertia;
+	mobility = W.cwiseAbs().rowwise().sum().maxCoeff(); // at least the largest eigenvalue; equal to it for balls
+	const double arm = std::max(rollingArm, twistingArm);
+	if (mobility == 0 && arm > 0) mobility = (one.inverseMass + two.inverseMass).dot(c.normal.cwiseAbs2()) / (arm * arm);
+	if (mobility > 0) inverseMobility = 1 / mobility;
+}
+
+void RollingContact::put(RollingPack& pack, int lane) const
+{
+	pack.rollingArm[lane] = rollingArm;
+	pack.twistingArm[lane] = twistingArm;
+	pack.mobility[lane] = mobility;
+	pack.inverseMobility[lane] = inverseMobility;
+	for (int k = 0; k < 3; ++k) {
+		pack.drive[k][lane] = drive[k];
+		pack.torque[k][lane] = torque[k];
+		pack.increment[k][lane] = increment[k];
+		pack.direction[k][lane] = direction[k];
+	}
+}
+
+void RollingContact::take(const RollingPack& pack, int lane)
+{
+	for (int k = 0; k < 3; ++k) {
+		torque[k] = pack.torque[k][lane];
+		increment[k] = pack.increment[k][lane];
+		direction[k] = pack.direction[k][lane];
+	}
 }
 
 Vector3 RollingContact::inside(const Vector3& given, const Vector3& normal, double normalImpulse) const

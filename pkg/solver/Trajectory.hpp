@@ -18,7 +18,8 @@ namespace contactdynamics {
 ///     SweepNorms sweep(Extrapolation)         moves to the extrapolated point, then visits every awake contact once
 ///     bool mend()                             looks after sleeping contacts; true when one of them was woken
 ///     double certificate()                    residual over all contacts, at feasible impulses and the velocities they produce
-///     void keep(), exchangeKept()             copies the impulses; goes to those kept, and keeps those left: only for keepIfBest() and what uses it
+///     void keep(), exchangeKept()             copies impulses and torques; goes to those kept, and keeps those left: only for keepIfBest() and what
+///     uses it
 ///
 /// The increments of a sweep cost nothing and estimate the residual; only when they promise convergence the certificate is evaluated, and only
 /// the certificate ends the loop. Every sweep ends at a feasible point, because each visit does.

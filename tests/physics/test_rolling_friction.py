@@ -70,7 +70,7 @@ def test_two_balls_use_the_reduced_radius() -> None:
 
 
 def test_stopping_is_no_failure_of_the_solve() -> None:
-    """In the step in which a rolling ball stops its torque goes to zero; the bound of the torque is the measure then, not the torque."""
+    """In the step in which a rolling ball stops its torque goes to zero; the residual is relative to all impulses, not to that torque."""
     law(rollingFriction=0.1, frictionAngle=0.7)
     floor()
     ball = grain((0, 0, 1), velocity=(2, 0, 0), spin=(0, 2, 0))

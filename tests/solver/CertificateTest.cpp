@@ -75,6 +75,15 @@ TEST(Certificate, KnowsRollingFriction)
 				GrainProblem problem = scenes::heap(5, 3, friction, false, general);
 				scenes::addRollingFriction(problem, 0.05);
 				expectIndependentResidual(problem, sweeps);
+				for (std::size_t i = 3; i < problem.bodies.size(); i += 7) { // blocked rotations, all or one
+					problem.bodies[i].inverseInertia.row(i % 2).setZero();
+					problem.bodies[i].inverseInertia.col(i % 2).setZero();
+					problem.bodies[i - 1].inverseInertia.setZero();
+				}
+				for (Contact& c : problem.contacts) c.ball = false;
+				problem.meanField.emplace();
+				problem.meanField->inverseMass.setConstant(1e-3);
+				expectIndependentResidual(problem, sweeps);
 			}
 }
 

@@ -104,7 +104,9 @@ inline double residual(const GrainProblem& free, const GrainProblem& solved)
 	for (const RollingFriction& one : solved.rolling) {
 		const Contact& c = solved.contacts[one.contact];
 		const Matrix3 W = free.bodies[c.body1].inverseInertia + free.bodies[c.body2].inverseInertia;
-		const double bound = std::max({W.row(0).lpNorm<1>(), W.row(1).lpNorm<1>(), W.row(2).lpNorm<1>()});
+		const double arm = std::max(one.rollingArm, one.twistingArm),
+					 turns = std::max({W.row(0).lpNorm<1>(), W.row(1).lpNorm<1>(), W.row(2).lpNorm<1>()});
+		const double bound = turns > 0 ? turns : arm > 0 ? c.normal.dot(delassus(free, c) * c.normal) / (arm * arm) : 0;
 		if (bound == 0) continue;
 		const double rn = c.impulse.dot(c.normal);
 		const Vector3 w = velocity[c.body2].tail<3>() - velocity[c.body1].tail<3>() + one.drive, z = one.torque - w / bound;
@@ -112,8 +114,8 @@ inline double residual(const GrainProblem& free, const GrainProblem& solved)
 		const Vector3 nearest = std::clamp(z.dot(c.normal), -one.twistingArm * rn, one.twistingArm * rn) * c.normal +
 								(zt.norm() > one.rollingArm * rn ? Vector3(one.rollingArm * rn * zt.normalized()) : zt);
 		const Vector3 F = one.torque - nearest;
-		above += F.dot(W * F);
-		below += one.torque.dot(W * one.torque);
+		above += bound * F.squaredNorm();
+		below += bound * one.torque.squaredNorm();
 	}
 	return above == 0 ? 0 : below > 0 ? std::sqrt(above / below) : 1;
 }

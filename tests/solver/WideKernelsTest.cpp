@@ -62,7 +62,8 @@ struct Balls {
 				if ((4 * i + lane) % 5 == 0) continue; // without
 				roll.rollingArm[lane] = std::abs(normal(random));
 				roll.twistingArm[lane] = lane % 2 ? 0 : std::abs(normal(random));
-				roll.inverseW[lane] = 0.3;
+				roll.mobility[lane] = 3;
+				roll.inverseMobility[lane] = 0.3;
 				for (int k = 0; k < 3; ++k) {
 					roll.drive[k][lane] = i % 3 ? 0 : normal(random);
 					roll.torque[k][lane] = normal(random);

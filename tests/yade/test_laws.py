@@ -178,3 +178,15 @@ def test_shear_strength_needs_friction_while_sliding() -> None:
     refused("tangensOfFrictionAngle is 0", "cohesionShear")
     phys.tangensOfFrictionAngle = 0.5
     O.step()
+
+
+def test_arms_set_to_zero_take_the_torque_along() -> None:
+    law(rollingFriction=0.1)
+    floor()
+    ball = grain((0, 0, 1), velocity=(1, 0, 0), spin=(0, 1, 0))
+    equip(1e-3)
+    steps(3)
+    assert contact(0, ball).phys.torqueImpulse.norm() > 0
+    contact(0, ball).phys.rollingArm = 0
+    steps(1)
+    assert contact(0, ball).phys.torqueImpulse == Vector3(0, 0, 0)

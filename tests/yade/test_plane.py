@@ -10,7 +10,7 @@ import pytest
 from yade import O, Vector3, utils
 
 from contactdynamics import plane
-from scenes import G, cd, contacts, equip, grain, material, rotation, state, steps, vec
+from scenes import G, box, cd, contacts, engine, equip, grain, law, material, rotation, state, steps, vec
 
 AXES = {"xy": (0, 1, 2), "yz": (1, 2, 0), "zx": (2, 0, 1)}
 
@@ -104,6 +104,23 @@ def test_plane_is_not_claimed_where_there_is_none() -> None:
     state(ids[1]).vel = Vector3(0, 0, 1)
     steps(1)
     assert cd().plane == ""
+
+
+def test_belt_that_turns_out_of_the_plane_twists_no_disk() -> None:
+    """The disk cannot turn about the normal: a torque of twisting friction acts on it, but changes no velocity."""
+    law(twistingFriction=0.1)
+    belt = box((0, -1, 0), (5, 1, 5))
+    O.bodies[belt].mask = 5
+    state(belt).angVel = Vector3(0, 0.2, 0)
+    disk = grain((0, 1, 0), mask=3)
+    state(disk).blockedDOFs = "zXY"
+    equip(1e-3, gravity=(0, -G, 0), tolerance=1e-10)
+    engine("NewtonIntegrator").mask = 2
+    steps(3)
+    assert cd().plane == "" and cd().converged
+    assert vec(cd().predictedVelocities()[disk][1]) == pytest.approx([0, 0, 0], abs=0)
+    # All of the weight is on the contact; the disk is dragged along, against which it pushes the belt back.
+    assert O.forces.t(disk)[1] == pytest.approx(0.1 * state(disk).mass * G, rel=1e-9)
 
 
 def _rod(angle: float, mu: float) -> tuple[int, list[int], float]:
