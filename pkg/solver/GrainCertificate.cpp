@@ -234,7 +234,11 @@ void GrainOperator::finish(SolveReport& report)
 	report.maxApproachSpeed = maxApproachSpeed;
 	collectImpulses(impulses);
 	collectTorques();
-	for (std::size_t k = 0; k < rollingContacts.size(); ++k) problem->rolling[k].torque = rollingContacts[k].torque;
+	for (std::size_t k = 0; k < rollingContacts.size(); ++k) { // an impulse that is round-off may just have become zero
+		RollingFriction& one = problem->rolling[k];
+		const Vector3& n = problem->contacts[one.contact].normal;
+		one.torque = rollingContacts[k].inside(rollingContacts[k].torque, n, impulses[one.contact].dot(n));
+	}
 	active.assign((impulses.size() + perRun - 1) / perRun, 0);
 	inRuns(impulses.size(), [this](std::size_t i) {
 		Contact& c = problem->contacts[i];

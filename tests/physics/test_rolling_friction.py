@@ -84,7 +84,8 @@ def test_stopping_is_no_failure_of_the_solve() -> None:
 def test_packing_that_comes_to_rest(rolling: float) -> None:
     """The steps of a pour are solved like those without rolling friction, with no torque beyond its limit.
 
-    Coulomb's law alone leaves up to one step in a thousand above the tolerance after 20,000 sweeps; torques and impulses solved in turn left 176 to 338 of 800.
+    Coulomb's law alone leaves one step in two thousand above the tolerance after 20,000 sweeps; here one in a hundred may be. Torques and impulses
+    solved in turn left a third and more.
     """
     law(rollingFriction=rolling, twistingFriction=rolling / 2, frictionAngle=math.atan(0.5))
     generator = random.Random(1)
@@ -104,14 +105,13 @@ def test_packing_that_comes_to_rest(rolling: float) -> None:
         missed.append(not cd().converged)
         for each in O.interactions:
             torque, normal = each.phys.torqueImpulse, each.geom.normal
-            most = each.phys.impulse.dot(normal)
+            pressed = each.phys.impulse.dot(normal)
             along = torque.dot(normal)
-            beyond.append((torque - along * normal).norm() - each.phys.rollingArm * most)
-            beyond.append(abs(along) - each.phys.twistingArm * most)
+            # A torque is scaled to its limit. Some roundings of it and of the impulse, which is as large as (1 + mu) times its normal part.
+            beyond.append((torque - along * normal).norm() - each.phys.rollingArm * pressed * (1 + 16 * EPS))
+            beyond.append(abs(along) - each.phys.twistingArm * pressed * (1 + 16 * EPS))
 
     steps(800, judge)
     assert sum(missed) <= 8
-    # A torque is scaled to its limit, so it keeps it to some roundings of what a grain bears, the weight of all.
-    weight = 60 * 2600 * 4 / 3 * math.pi * radius**3 * G * O.dt
-    assert max(beyond) < 100 * EPS * weight * radius
+    assert max(beyond) <= 0
     assert O.energy["contactRolling"] > 0
