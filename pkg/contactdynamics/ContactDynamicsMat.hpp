@@ -13,7 +13,8 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(ContactDynamicsMat,FrictMat,
-		"Material whose contacts bounce, stick, yield or resist rolling under :yref:`ContactDynamicsEngine`. Everything is off by default, then it is a :yref:`FrictMat`. The laws enter by a change of variable (Jean 1999, sections 1.2, 2.1, 2.2): "
+		"Material whose contacts bounce, stick, yield or resist rolling under :yref:`ContactDynamicsEngine`. Everything is off by default, then it is a :yref:`FrictMat`. Restitution: :yref:`normalRestitution<ContactDynamicsMat.normalRestitution>`, tangentialRestitution, restitutionVelocity; friction that is larger at rest: staticFrictionAngle; bonds: cohesionForce, cohesionStress; springs and dashpots in the contact: kn, ks, normalDamping; "
+		"resistance to rolling: rollingFriction, twistingFriction. For example ``ContactDynamicsMat(frictionAngle=0.4, rollingFriction=0.05, normalRestitution=0.3)``. As with all materials of YADE a change takes effect on contacts that are made afterwards. The laws enter by a change of variable (Jean 1999, sections 1.2, 2.1, 2.2): "
 		"Signorini's condition and Coulomb's law (26) hold for shifted velocities or impulses. Pairs: :yref:`Ip2_ContactDynamicsMat_ContactDynamicsMat_ContactDynamicsPhys`; beside a plain FrictMat the values given here count alone, but for friction, where the smaller angle does. "
 		"A value that is negative, not finite or out of range raises ValueError.",
 		((Real,normalRestitution,0,Attr::triggerPostLoad,"Newton's coefficient e_N in U⁺ = −e_N U⁻ [-], in [0, 1]; U⁻ is the normal velocity at the start of the step in which the gap would close. Applies at any approach speed above :yref:`restitutionVelocity<ContactDynamicsMat.restitutionVelocity>`. "
@@ -26,8 +27,8 @@ public:
 		((Real,kn,0,Attr::triggerPostLoad,"Normal stiffness of the contact (mortar) [N/m], ≥ 0: R_N = −kn g. Default 0: rigid. Oscillations that the step resolves keep their energy, unresolved ones are damped; kn → ∞ tends to the rigid contact that pushes overlaps out (24)."))
 		((Real,ks,0,Attr::triggerPostLoad,"Tangential stiffness of the contact [N/m], ≥ 0: a contact that sticks is held by a spring, Coulomb's limit stays. Default 0: rigid."))
 		((Real,normalDamping,0,Attr::triggerPostLoad,"Dashpot beside :yref:`kn<ContactDynamicsMat.kn>` [N·s/m], ≥ 0: acts while the bodies overlap and never pulls. Without kn it has no effect. Default 0."))
-		((Real,rollingFriction,0,Attr::triggerPostLoad,"Rolling friction coefficient of spheres [-], ≥ 0: the torque against rolling is at most this times ρ R_N, with ρ = r₁r₂/(r₁+r₂), or the radius on a flat body; of a cohesive contact the pull-off force is added to R_N. Only takes energy. Default 0."))
-		((Real,twistingFriction,0,Attr::triggerPostLoad,"The same about the contact normal [-], ≥ 0. Default 0."))
+		((Real,rollingFriction,0,Attr::triggerPostLoad,"Rolling friction coefficient of spheres [-], ≥ 0: the torque against rolling is at most this times ρ R_N, with ρ = r₁r₂/(r₁+r₂), or the radius on a flat body (half of what ``etaRoll`` and ``eta`` of YADE's soft laws give between equal spheres, the same on a flat body); without effect where no sphere is in the pair; of a cohesive contact the pull-off force is added to R_N. Only takes energy. Default 0."))
+		((Real,twistingFriction,0,Attr::triggerPostLoad,"Twisting friction coefficient of spheres [-], ≥ 0: the torque about the contact normal is at most this times ρ R_N, with ρ as for :yref:`rollingFriction<ContactDynamicsMat.rollingFriction>`. Only takes energy. Default 0."))
 		,
 		createIndex();
 	);

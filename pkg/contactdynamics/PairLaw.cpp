@@ -50,9 +50,11 @@ std::string PairLaw::applyTo(ContactDynamicsPhys& phys, const Body& body1, const
 
 	const Real r1 = radiusOf(body1), r2 = radiusOf(body2), smaller = std::min(r1, r2);
 	const bool round = std::isfinite(smaller);
-	if (!round && (cohesionStress > 0 || rollingFriction > 0 || twistingFriction > 0))
-		return "cohesionStress, rollingFriction and twistingFriction need a sphere in the pair, because its radius is the length they refer to.";
-	const Real reduced = round ? 1 / (1 / r1 + 1 / r2) : 0; // 1/infinity is 0: flat
+	if (!round && cohesionStress > 0)
+		return complaint("cohesionStress", cohesionStress,
+						 "it needs a sphere in the pair, whose cross-section it acts on. Use cohesionForce, or set cohesionStress of this pair of "
+						 "materials to 0 in Ip2_ContactDynamicsMat_ContactDynamicsMat_ContactDynamicsPhys");
+	const Real reduced = round ? 1 / (1 / r1 + 1 / r2) : 0; // 1/infinity is 0: flat; blocks do not roll
 	phys.staticFriction = staticFrictionAngle > frictionAngle ? std::tan(staticFrictionAngle) : 0;
 	phys.normalRestitution = normalRestitution;
 	phys.tangentialRestitution = tangentialRestitution;

@@ -43,7 +43,7 @@ SweepNorms visit(GeneralContact& c, BodyState* bodies, Extrapolation extrapolati
 	Vector3 U = v2 - v1 + w2.cross(c.arm2) - w1.cross(c.arm1);
 	if (field) U += Eigen::Map<const Matrix>(field->gradient) * (c.arm1 - c.arm2);
 	const Vector3 u = c.frame * U + c.offset;
-	const Vector3 r = c.local.solve(u + c.compliance.cwiseProduct(x) - c.W * x, c.friction), dr = r - x;
+	const Vector3 r = c.local.solve(u + c.compliance.cwiseProduct(x) - c.W * x, c.friction, c.slidingRate), dr = r - x;
 	c.impulse = r;
 	c.increment = dr;
 

@@ -20,6 +20,7 @@ struct GeneralContact {
 	double friction;
 	const Body *mobility1, *mobility2; ///< inverse masses and inertias of the bodies
 	OneContact local;
+	double slidingRate;					   ///< of the last visit, 0: unknown
 	Vector3 impulse, increment, direction; ///< as in BallPack
 	RollingContact* rolling;			   ///< null: none
 };

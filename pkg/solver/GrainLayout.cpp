@@ -77,6 +77,7 @@ void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id)
 	if (hasField() && g.W(0, 0) > 0) g.W.diagonal().array() += mobility(g.W(0, 0), c) - g.W(0, 0);
 	g.friction = c.friction;
 	g.local = OneContact(g.W);
+	g.slidingRate = 0;
 	g.impulse = g.frame * impulses[id];
 	g.rolling = rollingAt(id);
 	g.increment.setZero();

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Contact Dynamics for YADE: rigid grains under the Signorini condition and Coulomb's law, after Jean (1999).
 
-``from contactdynamics import *`` in a script of YADE gives the classes and :func:`engines`. The modules of the package (``contactdynamics.report``,
+After ``import contactdynamics`` the classes are there by name, like YADE's own; ``from contactdynamics import *`` adds :func:`engines`. The modules of the package (``contactdynamics.report``,
 ``contactdynamics.fclib``, ...) are imported when they are first used.
 """
 
@@ -13,6 +13,7 @@ from . import _loading
 
 _classes = _loading.load()
 globals().update(_classes)
+_loading.name_in_session(_classes)
 
 from ._presets import engines  # noqa: E402 - needs the classes
 

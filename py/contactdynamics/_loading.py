@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import importlib
+import sys
 from types import ModuleType
 
 from . import _build
@@ -38,6 +39,20 @@ def load() -> dict[str, type]:
             "Another copy of contactdynamics is already loaded in this process. Start YADE again to use this one."
         )
     return {name: getattr(wrapper, name) for name in names}
+
+
+def name_in_session(classes: dict[str, type]) -> None:
+    """Let sessions and scripts of YADE use the classes by name, as they use YADE's own: ``ContactDynamicsEngine?``.
+
+    Names that a script has given to something else stay as they are.
+    """
+    main = sys.modules["__main__"]
+    spaces = [sys.modules["yade"]]
+    if getattr(main, "O", None) is spaces[0].O:  # `from yade import *` has been done there, as YADE does at its start
+        spaces.append(main)
+    for space in spaces:
+        for name, made in classes.items():
+            vars(space).setdefault(name, made)
 
 
 def _import_yade() -> ModuleType:

@@ -139,6 +139,18 @@ def test_engine_before_the_interaction_loop() -> None:
     works()
 
 
+def test_collider_between_loop_and_engine() -> None:
+    """The pairs it finds would be solved a step late: at 20 m/s a ball went through the floor."""
+    right = scene()
+    loop, collider = engine("InteractionLoop"), engine("InsertionSortCollider")
+    place = right.index(collider)
+    assert right[place + 1] is loop
+    O.engines = right[:place] + [loop, collider] + right[place + 2 :]
+    refused("InsertionSortCollider", "before InteractionLoop")
+    O.engines = right
+    works()
+
+
 def test_two_contact_dynamics_engines() -> None:
     """Each would add the whole reaction."""
     right = scene()

@@ -9,9 +9,10 @@ import pytest
 from yade import MatchMaker, O, Vector3
 
 import laws_cases
+from blocks import block
 from contactdynamics import ContactDynamicsMat
 from refusal import refused
-from scenes import G, contact, engine, equip, floor, grain, isolated, law, state, steps, vec
+from scenes import G, cd, contact, engine, equip, floor, grain, isolated, law, state, steps, vec
 
 COEFFICIENTS = ["normalRestitution", "tangentialRestitution"]
 OTHERS = ["restitutionVelocity", "cohesionForce", "cohesionStress", "kn", "ks", "normalDamping", "rollingFriction"]
@@ -190,3 +191,19 @@ def test_arms_set_to_zero_take_the_torque_along() -> None:
     contact(0, ball).phys.rollingArm = 0
     steps(1)
     assert contact(0, ball).phys.torqueImpulse == Vector3(0, 0, 0)
+
+
+def test_laws_that_refer_to_a_radius_and_pairs_without() -> None:
+    """Blocks do not roll, so rolling friction of their material has no effect; a cohesion that cannot act is told, with what to do."""
+    law(rollingFriction=0.1, twistingFriction=0.1)
+    ground = floor()
+    cube = block((0, 0, 0.5))
+    ball = grain((3, 0, 1))
+    equip(1e-3)
+    steps(3)
+    assert contact(ground, ball).phys.rollingArm == 0.1 and contact(ground, cube).phys.rollingArm == 0
+    assert cd().activeContacts == 5
+    O.materials[0].cohesionStress = 10
+    O.bodies.erase(cube)
+    other = block((0, 0, 0.5))
+    refused(rf"#{ground}\+#{other}", "cohesionStress of the pair is 10", "cohesionForce")

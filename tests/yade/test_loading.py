@@ -134,9 +134,12 @@ assert not hasattr(contactdynamics, "noSuchModule")
 
 
 def test_interactive_session(tmp_path) -> None:
-    typed = "from contactdynamics import *\nprint('tolerance', ContactDynamicsEngine().tolerance)\nexit()\n"
+    """The classes are there by name, as YADE's own, and tell what they are; a name that is taken stays as it is."""
+    typed = "ContactDynamicsPhys = 3\nimport contactdynamics\nprint('tolerance', ContactDynamicsEngine().tolerance)\n"
+    typed += "ContactDynamicsMat?\nprint('taken', ContactDynamicsPhys)\nexit()\n"
     done = run(["yade", "-n"], cwd=tmp_path, input=typed)
-    assert "tolerance 0.0001" in done.stdout, done.stdout + done.stderr
+    for expected in ("tolerance 0.0001", "Material whose contacts bounce", "taken 3"):
+        assert expected in done.stdout, done.stdout + done.stderr
 
 
 def test_plain_python(tmp_path) -> None:
