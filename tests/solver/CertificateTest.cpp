@@ -76,8 +76,8 @@ TEST(Certificate, KnowsRollingFriction)
 				scenes::addRollingFriction(problem, 0.05);
 				expectIndependentResidual(problem, sweeps);
 				for (std::size_t i = 3; i < problem.bodies.size(); i += 7) { // blocked rotations, all or one
-					problem.bodies[i].inverseInertia.row(i % 2).setZero();
-					problem.bodies[i].inverseInertia.col(i % 2).setZero();
+					problem.bodies[i].inverseInertia.row(Eigen::Index(i % 2)).setZero();
+					problem.bodies[i].inverseInertia.col(Eigen::Index(i % 2)).setZero();
 					problem.bodies[i - 1].inverseInertia.setZero();
 				}
 				for (Contact& c : problem.contacts) c.ball = false;
