@@ -161,12 +161,12 @@ void ContactDynamicsEngine::repair()
 	warnOfOverlap();
 }
 
-/// Overlaps this deep are no residue of the solve: the residual bounds velocities, and what it leaves of them moves bodies by as much as O.dt allows.
+/// Overlaps this deep are nothing that repair would undo in a while. The residual bounds velocities; what it leaves of them moves bodies by as much
+/// as O.dt allows, and where centres pass each other contact is lost.
 void ContactDynamicsEngine::warnOfOverlap()
 {
-	constexpr Real deep = 0.1; // a grain that passes another one by half its radius a step is off by 0.06
 	const ContactDynamicsStep::Overlap& worst = step->worstOverlap;
-	if (warnedOfOverlap || !(worst.share > deep)) return;
+	if (warnedOfOverlap || !(worst.share > 0)) return;
 	warnedOfOverlap = true;
 	std::cerr << "WARNING: ContactDynamicsEngine: step " << scene->iter << ": bodies #" << worst.id1 << " and #" << worst.id2 << " overlap by "
 			  << worst.depth << " m, " << worst.share << " of their size. They were placed so, or they move too far in a step: O.dt = " << scene->dt

@@ -38,10 +38,11 @@ struct ContactDynamicsStep {
 	Real repairDisplacement = 0;			  // see PenetrationRepair::largestDisplacement() [m]
 	Matrix3r repairStrain = Matrix3r::Zero(); // of the periodic cell, by repair [-]
 	struct Overlap {						  // at the end of the step, without repair
-		Real share = 0;						  // in sizes of the contact [-]
+		Real share = 0;						  // of the smaller radius, of half the thickness of the thinner block [-]
 		Real depth = 0;						  // [m]
 		int id1 = -1, id2 = -1;
-	} worstOverlap; // by share; springs that are pressed do not count
+	} worstOverlap; // by share, beyond deepOverlap; not of springs, nor of bodies that nothing moves apart
+	static constexpr Real deepOverlap = 0.1;
 
 	void collectBodies(Scene& scene, const IntegratorPlan& plan);
 	/// @param warmStart  factor for the stored impulses: ratio of time steps, or 0 to start from nothing
@@ -147,8 +148,8 @@ private:
 	Real gapAfterMotion(std::size_t contact) const;
 	Real gapToRepair(const TouchingPair& pair) const;
 	TouchingPair pairFrom(std::size_t first) const;
-	void noteOverlap(const TouchingPair& pair);
-	void choosePairs();
+	void noteOverlap(const Scene& scene, const TouchingPair& pair);
+	void choosePairs(const Scene& scene);
 	void setPseudoImpulse(const TouchingPair& pair, Real pseudoImpulse);
 	void displace(Scene& scene, Real share, Real allowed, const Matrix3r& cellMobility);
 

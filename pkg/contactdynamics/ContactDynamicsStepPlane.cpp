@@ -24,6 +24,8 @@ void ContactDynamicsStep::usePlane()
 	}
 	for (contactdynamics::Contact& contact : problem.contacts)
 		contact.ball = disk[contact.body1] && disk[contact.body2] && (contact.ball || !problem.meanField || alongNormal(contact));
+	// What is left of a belt that once turned out of the plane.
+	for (contactdynamics::RollingFriction& friction : problem.rolling) friction.torque = friction.torque[planeAxis] * Vector3r::Unit(planeAxis);
 }
 
 } // namespace yade

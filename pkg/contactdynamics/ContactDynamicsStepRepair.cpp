@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Penetration repair of a step: bodies are displaced before NewtonIntegrator moves them by h v.
+#include "BodySize.hpp"
 #include "ContactDynamicsPhys.hpp"
 #include "ContactDynamicsStep.hpp"
 #include "ContactEnergy.hpp"
@@ -7,6 +8,7 @@
 #include <core/Scene.hpp>
 #include <algorithm>
 #include <limits>
+#include <pkg/solver/GeneralContact.hpp>
 
 namespace yade {
 namespace {
@@ -58,13 +60,20 @@ ContactDynamicsStep::TouchingPair ContactDynamicsStep::pairFrom(std::size_t firs
 	return pair;
 }
 
-void ContactDynamicsStep::noteOverlap(const TouchingPair& pair)
+/// The size of the pair is quick to have, but a lever arm says little about the bodies: their thickness decides.
+void ContactDynamicsStep::noteOverlap(const Scene& scene, const TouchingPair& pair)
 {
+	constexpr Real worthALook = 1e-2;
 	for (std::size_t i = pair.first; i < pair.last; i++) {
 		const contactdynamics::Contact& contact = problem.contacts[i];
 		const Real depth = -(links[i].gap + h * contact.normal.dot(contact.relativeVelocity));
-		if (contact.normalCompliance > 0 || !(depth > worstOverlap.share * pair.size)) continue;
-		worstOverlap = {depth / pair.size, depth, links[i].id1, links[i].id2};
+		if (contact.normalCompliance > 0 || !(depth > worthALook * pair.size)) continue;
+		const auto half = [&](int id) { return 0.5 * extentAlong(*(*scene.bodies)[id], contact.normal); };
+		const Real one = half(links[i].id1), two = half(links[i].id2), size = one > 0 && two > 0 ? std::min(one, two) : std::max(one, two);
+		if (!(size > 0 && depth > std::max(deepOverlap, worstOverlap.share) * size)) continue;
+		const auto &body1 = problem.bodies[contact.body1], &body2 = problem.bodies[contact.body2];
+		const bool moves = contactdynamics::localDelassus(body1, body2, contact, contactdynamics::contactFrame(contact.normal))(0, 0) > 0;
+		if (moves) worstOverlap = {depth / size, depth, links[i].id1, links[i].id2};
 	}
 }
 
@@ -75,13 +84,13 @@ void ContactDynamicsStep::setPseudoImpulse(const TouchingPair& pair, Real pseudo
 }
 
 /// Those that the displacements of this step might close, and that are not compliant, whose overlap is meant. The others forget how they were pushed.
-void ContactDynamicsStep::choosePairs()
+void ContactDynamicsStep::choosePairs(const Scene& scene)
 {
 	pairs.clear();
 	for (std::size_t i = 0; i < links.size();) {
 		const TouchingPair pair = pairFrom(i);
 		i = pair.last;
-		noteOverlap(pair);
+		noteOverlap(scene, pair);
 		if (pair.gap > 2 * PenetrationRepair::largestWay * pair.size || problem.contacts[pair.first].normalCompliance > 0)
 			setPseudoImpulse(pair, 0);
 		else
@@ -95,7 +104,7 @@ void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowe
 	repairStrain.setZero();
 	worstOverlap = Overlap();
 	Real deepest = 0; // to be repaired, in sizes
-	choosePairs();
+	choosePairs(scene);
 	for (const TouchingPair& pair : pairs) {
 		remainingOverlap = std::max(remainingOverlap, -pair.deepest);
 		deepest = std::max(deepest, -pair.gap / pair.size);

@@ -51,7 +51,7 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 	bool collides = false, resetBefore = false, loopBefore = false, lawBefore = false, passed = false, newtonBehind = false;
 	int integrators = 0;
 	std::string intruder;	  // between this engine and the integrator
-	std::string lateCollider; // between the InteractionLoop and this engine
+	std::string lateCollider; // between our InteractionLoop and the integrator
 	for (const auto& other : scene.engines) {
 		if (other.get() == &engine) {
 			require(!passed, "it stands twice in O.engines, so it would solve the contacts again that it has just solved. Remove one.");
@@ -75,11 +75,14 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 		if (name == "ForceResetter") resetBefore |= !passed;
 		if (dynamic_cast<const Collider*>(other.get())) {
 			collides = true;
-			if (loopBefore && !passed) lateCollider = name;
+			if (lawBefore && !newtonBehind) lateCollider = name;
 		}
 		if (const auto* loop = dynamic_cast<const InteractionLoop*>(other.get())) {
 			loopBefore |= !passed;
-			lawBefore |= !passed && hasLawForUs(*loop);
+			if (!passed && hasLawForUs(*loop)) {
+				lawBefore = true;
+				lateCollider.clear();
+			}
 		}
 		require(name != "ContactDynamicsTriaxialController" || !passed,
 				"ContactDynamicsTriaxialController stands behind this engine in O.engines, so the contacts would not feel its walls; put it before.");
@@ -105,9 +108,9 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 			"no InteractionLoop stands before this engine in O.engines, so there are no contacts to solve; put it between collider and engine.");
 	require(lawBefore, "no InteractionLoop before this engine in O.engines has a law for ContactDynamicsPhys, so contacts would be lost; give it "
 					   "Law2_ScGeom_ContactDynamicsPhys_SignoriniCoulomb().");
-	require(lateCollider.empty(),
-			lateCollider + " stands between InteractionLoop and this engine in O.engines, so pairs that it finds would be solved a step late, and "
-						   "fast bodies pass through one another. Put it before InteractionLoop.");
+	require(lateCollider.empty(), lateCollider +
+										  " stands between InteractionLoop and NewtonIntegrator in O.engines, so pairs that it finds would be solved "
+										  "a step late, and fast bodies pass through one another. Put it before InteractionLoop.");
 	std::ostringstream gravity, damping;
 	gravity << newton->gravity.transpose();
 	require(newton->gravity.allFinite(), "NewtonIntegrator.gravity is " + gravity.str() + "; it must be finite.");

@@ -27,7 +27,7 @@ bool inPlane(const Contact& contact, int axis)
 bool inPlane(const contactdynamics::RollingFriction& friction, int axis)
 {
 	const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-	return friction.drive[b] == 0 && friction.drive[c] == 0 && friction.torque[b] == 0 && friction.torque[c] == 0;
+	return friction.drive[b] == 0 && friction.drive[c] == 0;
 }
 template <class Item> bool allInPlane(const std::vector<Item>& items, int axis)
 {

@@ -69,8 +69,9 @@ inline double OneContact::slidingRate(const Pushed& p, double guess) const
 		const Sliding at = slideAt(guess, p);
 		const double next = guess + at.step();
 		if (!(at.limit > 0 && at.length > 0 && next > low)) break;
-		// The error after a step is of the order of its square, and the next visit goes on from here.
-		if (std::abs(next - guess) <= 1e-4 * guess) return next;
+		// The error after a step is of the order of its square, and the next visit goes on from here. Near the pole, mu r_n -> 0, steps are short
+		// for another reason.
+		if (std::abs(next - guess) <= 1e-4 * guess && std::abs(at.excess()) <= 1e-3 * at.length) return next;
 		guess = next;
 	}
 	while (slideAt(high, p).excess() > 0) {

@@ -17,8 +17,12 @@ RollingContact::RollingContact(const RollingFriction& friction, const GrainProbl
 	const Matrix3 W = one.inverseInertia + two.inverseInertia;
 	mobility = W.cwiseAbs().rowwise().sum().maxCoeff(); // at least the largest eigenvalue; equal to it for balls
 	const double arm = std::max(rollingArm, twistingArm);
-	if (mobility == 0 && arm > 0) mobility = (one.inverseMass + two.inverseMass).dot(c.normal.cwiseAbs2()) / (arm * arm);
-	if (mobility > 0) inverseMobility = 1 / mobility;
+	double overstep = 1;
+	if (mobility == 0 && arm > 0) {
+		mobility = (one.inverseMass + two.inverseMass).dot(c.normal.cwiseAbs2()) / (arm * arm);
+		overstep = 1e6; // nothing moves in return: at the limit in one visit, with ten digits of the direction left
+	}
+	if (mobility > 0) inverseMobility = overstep / mobility;
 }
 
 void RollingContact::put(RollingPack& pack, int lane) const

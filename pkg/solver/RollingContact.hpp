@@ -15,11 +15,11 @@ struct RollingPack;
 /// few balls, but mostly not in packings that move: a torque that is held changes the normal impulses around, and with them all limits.
 ///
 /// W_w is a number, the largest angular velocity by a unit of torque; for balls it is that in all directions. Where nothing turns (driven rollers on
-/// a plate) it is taken as W_NN / l^2: the torque has to reach its limit all the same, and shows in the residual until it has.
+/// a plate) it is taken as W_NN / l^2 in the residual, and as next to nothing in the visit: the torque goes to its limit at once.
 struct RollingContact {
 	double rollingArm, twistingArm;		  // [m]
 	Vector3 drive;						  // [rad/s]
-	double mobility, inverseMobility;	  // W_w and 1 / W_w; both 0 where no impulse moves the bodies [1/(kg m2)], [kg m2]
+	double mobility, inverseMobility;	  // W_w of the residual, and 1 / W_w of the visit; 0 where no impulse moves the bodies [1/(kg m2)], [kg m2]
 	Vector3 torque, increment, direction; // as in BallPack [N m s]
 
 	RollingContact() = default;

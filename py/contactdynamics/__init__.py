@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Contact Dynamics for YADE: rigid grains under the Signorini condition and Coulomb's law, after Jean (1999).
 
-After ``import contactdynamics`` the classes are there by name, like YADE's own; ``from contactdynamics import *`` adds :func:`engines`. The modules of the package (``contactdynamics.report``,
-``contactdynamics.fclib``, ...) are imported when they are first used.
+After ``import contactdynamics`` the classes are there by name, like YADE's own; ``from contactdynamics import *`` adds :func:`engines`. The modules
+of the package (``contactdynamics.report``, ``contactdynamics.fclib``, ...) are imported when they are first used.
 """
 
 import importlib

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from yade import O, PyRunner, Quaternion, Vector3, utils
 
+from blocks import block
 from contactdynamics import ContactDynamicsEngine
-from scenes import G, active, cd, contact, dumbbell, engine, equip, floor, grain, material, state, steps, vec
+from scenes import G, active, box, cd, contact, dumbbell, engine, equip, floor, grain, material, state, steps, vec
 from test_detection import facet
 
 H = 1e-3
@@ -131,6 +132,32 @@ def test_deep_overlaps_are_told_once(heights: tuple[float, float], step: float, 
     steps(5)
     told = [line for line in capfd.readouterr().err.splitlines() if "overlap by" in line]
     assert len(told) == 1 and re.search("bodies #[01] and #[12] ", told[0]) and f"O.dt = {step:g}" in told[0]
+
+
+def test_what_cannot_part_is_no_deep_overlap(capfd) -> None:
+    """A lid that slides between walls that it reaches into."""
+    material()
+    for side in (-1, 1):
+        box((1.4 * side, 0, 0), (0.5, 2, 6))
+    lid = O.bodies.append(utils.box((0, 0, 2), (1, 1, 0.1)))
+    state(lid).blockedDOFs = "xyXYZ"
+    equip(H)
+    steps(5)
+    assert contact(0, lid).geom.penetrationDepth == pytest.approx(0.1) and "overlap by" not in capfd.readouterr().err
+
+
+def test_lever_arm_is_no_measure_of_an_overlap(capfd) -> None:
+    """A wall whose position lies next to the corner of the cube that it presses."""
+    material()
+    floor()
+    cube = block((0, 0, 0.5))
+    plate = O.bodies.append(utils.wall((0.5 + 1e-8, 0.5, 1.0 - 1e-7), axis=2, sense=-1, material=O.materials[0]))
+    O.bodies[plate].dynamic = True
+    state(plate).mass, state(plate).blockedDOFs = 100, "xyXYZ"
+    equip(H)
+    steps(5)
+    assert cd().maxPenetration > 5e-8 and contact(cube, plate) is not None
+    assert "overlap by" not in capfd.readouterr().err
 
 
 def test_engines_assigned_during_a_step() -> None:
