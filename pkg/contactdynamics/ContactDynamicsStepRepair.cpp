@@ -18,14 +18,16 @@ constexpr Real gentleStep = 1e-4;
 constexpr Real leastShare = 6e-3;
 /// Overlap of a point up to which the loaded points of the same pair stay closed, in sizes.
 constexpr Real bearable = 1e-3;
+
+/// Of two lengths, 0 where one is not known [m].
+Real smallerKnown(Real one, Real two) { return one > 0 && two > 0 ? std::min(one, two) : std::max(one, two); }
 } // namespace
 
 /// What an overlap is measured against: the radius of the smaller sphere, the shorter lever arm where there is none.
 Real ContactDynamicsStep::sizeOf(std::size_t i) const
 {
-	const auto smaller = [](Real one, Real two) { return one > 0 && two > 0 ? std::min(one, two) : std::max(one, two); };
-	const Real radius = smaller(views[links[i].id1].radius, views[links[i].id2].radius);
-	return radius > 0 ? radius : smaller(problem.contacts[i].arm1.norm(), problem.contacts[i].arm2.norm());
+	const Real radius = smallerKnown(views[links[i].id1].radius, views[links[i].id2].radius);
+	return radius > 0 ? radius : smallerKnown(problem.contacts[i].arm1.norm(), problem.contacts[i].arm2.norm());
 }
 
 /// The larger one of the gaps at the start and at the end of the step. The overlap of a compliant contact is its deformation, which carries its
@@ -69,7 +71,7 @@ void ContactDynamicsStep::noteOverlap(const Scene& scene, const TouchingPair& pa
 		const Real depth = -(links[i].gap + h * contact.normal.dot(contact.relativeVelocity));
 		if (contact.normalCompliance > 0 || !(depth > worthALook * pair.size)) continue;
 		const auto half = [&](int id) { return 0.5 * extentAlong(*(*scene.bodies)[id], contact.normal); };
-		const Real one = half(links[i].id1), two = half(links[i].id2), size = one > 0 && two > 0 ? std::min(one, two) : std::max(one, two);
+		const Real size = smallerKnown(half(links[i].id1), half(links[i].id2));
 		if (!(size > 0 && depth > std::max(deepOverlap, worstOverlap.share) * size)) continue;
 		const auto &body1 = problem.bodies[contact.body1], &body2 = problem.bodies[contact.body2];
 		const bool moves = contactdynamics::localDelassus(body1, body2, contact, contactdynamics::contactFrame(contact.normal))(0, 0) > 0;

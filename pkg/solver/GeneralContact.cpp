@@ -30,6 +30,16 @@ Matrix3 localDelassus(const Body& body1, const Body& body2, const Contact& conta
 	return 0.5 * (W + W.transpose());
 }
 
+namespace {
+/// How far the extrapolation goes from the point of the last visit; keeps the search direction for the next one.
+Vector3 stepAhead(const Vector3& increment, Vector3& direction, const Extrapolation& by)
+{
+	Vector3 ahead = by.relax * increment + by.momentum * direction;
+	direction = increment + ahead;
+	return ahead;
+}
+} // namespace
+
 SweepNorms visit(GeneralContact& c, BodyState* bodies, Extrapolation extrapolation, FieldPass* field)
 {
 	using Map = Eigen::Map<Vector3>;
@@ -37,9 +47,7 @@ SweepNorms visit(GeneralContact& c, BodyState* bodies, Extrapolation extrapolati
 	const std::int32_t i1 = c.body1 < 0 ? ~c.body1 : c.body1, i2 = c.body2 < 0 ? ~c.body2 : c.body2;
 	Map v1(bodies[i1].velocity), w1(bodies[i1].angularVelocity), v2(bodies[i2].velocity), w2(bodies[i2].angularVelocity);
 
-	const Vector3 ahead = extrapolation.relax * c.increment + extrapolation.momentum * c.direction;
-	const Vector3 x = c.impulse + ahead;
-	c.direction = c.increment + ahead;
+	const Vector3 x = c.impulse + stepAhead(c.increment, c.direction, extrapolation);
 	Vector3 U = v2 - v1 + w2.cross(c.arm2) - w1.cross(c.arm1);
 	if (field) U += Eigen::Map<const Matrix>(field->gradient) * (c.arm1 - c.arm2);
 	const Vector3 u = c.frame * U + c.offset;
@@ -61,8 +69,7 @@ SweepNorms visit(GeneralContact& c, BodyState* bodies, Extrapolation extrapolati
 	if (!c.rolling) return norms;
 
 	RollingContact& roll = *c.rolling;
-	const Vector3 turnAhead = extrapolation.relax * roll.increment + extrapolation.momentum * roll.direction, before = roll.torque + turnAhead;
-	roll.direction = roll.increment + turnAhead;
+	const Vector3 before = roll.torque + stepAhead(roll.increment, roll.direction, extrapolation);
 	roll.torque = roll.improved(before, w2 - w1, c.frame.row(0), r[0]);
 	const Vector3 dm = roll.increment = roll.torque - before;
 	if (c.body1 >= 0) w1 -= c.mobility1->inverseInertia * dm;
