@@ -109,22 +109,6 @@ template <int D> double NewtonStep<D>::cost() const
 	return overhead * 2 * D * D * D * pairs;
 }
 
-template <int D> double NewtonStep<D>::merit(const std::vector<Vector>& r, const std::vector<Vector>& u) const
-{
-	double sum = 0;
-	for (std::size_t i = 0; i < r.size(); ++i) {
-		if (!(normalScale[i] > 0)) continue;
-		using Tangent = Eigen::Matrix<double, D - 1, 1>;
-		const double zN = std::max(0.0, r[i][0] - normalScale[i] * u[i][0]), bound = problem.friction[i] * zN;
-		Tangent zT = r[i].template tail<D - 1>() - tangentScale[i] * u[i].template tail<D - 1>();
-		const double length = zT.norm();
-		if (length > bound) zT *= bound / length;
-		const double normal = r[i][0] - zN;
-		sum += (normal * normal + (r[i].template tail<D - 1>() - zT).squaredNorm()) / normalScale[i];
-	}
-	return sum;
-}
-
 template <int D> bool NewtonStep<D>::factorAndSolve(int size, bool samePattern, const std::vector<Eigen::Triplet<double>>& entries)
 {
 	constexpr int denseBelow = 100; // unknowns

@@ -34,9 +34,6 @@ public:
 	/// meets, times the overhead that was measured.
 	double cost() const;
 
-	/// Squared norm of the function, in impulses weighted by W_NN [J]: what a line search must reduce.
-	double merit(const std::vector<Vector>& r, const std::vector<Vector>& u) const;
-
 private:
 	const BlockProblem& problem;
 	std::vector<double> normalScale, tangentScale; // p_N, p_T [kg]

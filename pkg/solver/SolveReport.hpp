@@ -13,7 +13,7 @@ enum class SolveStatus {
 struct SolveReport {
 	SolveStatus status = SolveStatus::converged;
 	int iterations = 0;			 ///< sweeps done
-	int newtonSteps = 0;		 ///< explicit block problems only: linear systems solved by the Newton finish
+	int newtonSteps = 0;		 ///< explicit block problems only: linear systems solved by Newton finish and central path
 	double residual = 0;		 ///< relative natural map at the returned point, over all contacts, see NaturalMap.hpp [-]
 	double maxApproachSpeed = 0; ///< largest max(0, -(U_N + s)) at the returned point [m/s]
 	int activeContacts = 0;		 ///< contacts with a non-zero impulse

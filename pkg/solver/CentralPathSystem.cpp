@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "CentralPathSystem.hpp"
+
+#include "SmoothedContact.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace contactdynamics {
+
+template <int D> CentralPathSystem<D>::CentralPathSystem(const BlockProblem& problem) : rowStart(problem.rowStart), column(problem.column)
+{
+	describe(problem);
+	layOut();
+	for (Eigen::VectorXd* vector : {&r, &F, &terms, &rateOfR, &rateOfLog}) vector->resize(unknowns());
+	slope.resize(scale.size());
+	s.resize(scale.size());
+}
+
+template <int D> void CentralPathSystem<D>::describe(const BlockProblem& problem)
+{
+	const std::size_t count = problem.contacts();
+	const auto given = [&](int k) { return Eigen::Map<const Eigen::Matrix<double, D, D, Eigen::RowMajor>>(&problem.blocks[D * D * std::size_t(k)]); };
+	for (std::size_t i = 0; i < count; ++i) {
+		Block own = Block::Zero();
+		for (int k = rowStart[i]; k < rowStart[i + 1]; ++k)
+			if (std::size_t(column[k]) == i) own += given(k);
+		const double mu = problem.friction[i];
+		Vector factors = Vector::Ones();
+		if (mu > 0) factors[0] = 1 / mu;
+		const double mean = mu > 0 ? factors.cwiseAbs2().dot(own.diagonal()) / D : own(0, 0);
+		law.push_back(!(own(0, 0) > 0 && mean > 0) ? Law::none : mu > 0 ? Law::coulomb : Law::frictionless);
+		scale.push_back(law.back() == Law::none ? Vector(Vector::Ones()) : Vector(factors / std::sqrt(mean)));
+	}
+	for (std::size_t i = 0; i < count; ++i)
+		for (int k = rowStart[i]; k < rowStart[i + 1]; ++k)
+			W.push_back(scale[i].asDiagonal() * Block(given(k)) * scale[std::size_t(column[k])].asDiagonal());
+	q.resize(unknowns());
+	for (std::size_t i = 0; i < count; ++i) q.segment<D>(D * i) = scale[i].cwiseProduct(Eigen::Map<const Vector>(&problem.q[D * i]));
+	size = q.norm() / std::sqrt(double(count));
+	if (size > 0) q /= size;
+}
+
+template <int D> void CentralPathSystem<D>::layOut()
+{
+	const int count = int(scale.size());
+	std::vector<Eigen::Triplet<double>> entries;
+	const auto addPattern = [&](int i, int j) {
+		for (int a = 0; a < D; ++a)
+			for (int b = 0; b < D; ++b) entries.emplace_back(D * i + a, D * j + b, 0);
+	};
+	for (int i = 0; i < count; ++i) {
+		addPattern(i, i);
+		for (int k = rowStart[i]; k < rowStart[i + 1]; ++k) addPattern(i, column[k]);
+	}
+	matrix.resize(unknowns(), unknowns());
+	matrix.setFromTriplets(entries.begin(), entries.end());
+	matrix.makeCompressed();
+	for (int i = 0; i < count; ++i) {
+		diagonalPlace.push_back(find(D * i, D * i));
+		for (int k = rowStart[i]; k < rowStart[i + 1]; ++k) place.push_back(find(D * i, D * column[k]));
+	}
+	if (!dense()) {
+		factor.isSymmetric(true);
+		factor.analyzePattern(matrix);
+	}
+}
+
+template <int D> int CentralPathSystem<D>::find(int row, int col) const
+{
+	const int* first = matrix.innerIndexPtr() + matrix.outerIndexPtr()[col];
+	const int* last = matrix.innerIndexPtr() + matrix.outerIndexPtr()[col + 1];
+	return int(std::lower_bound(first, last, row) - first);
+}
+
+template <int D> void CentralPathSystem<D>::addBlock(int where, std::int32_t contact, const Block& block)
+{
+	for (int b = 0; b < D; ++b) {
+		double* values = matrix.valuePtr() + matrix.outerIndexPtr()[D * contact + b] + where;
+		for (int a = 0; a < D; ++a) values[a] += block(a, b);
+	}
+}
+
+template <int D> typename CentralPathSystem<D>::Contact CentralPathSystem<D>::contact(std::size_t i, const Eigen::VectorXd& z, double t) const
+{
+	Contact result;
+	const Vector zi = z.segment<D>(D * i);
+	result.u = -zi;
+	if (law[i] == Law::coulomb) {
+		const SmoothedContact<D> smoothed(zi, t);
+		result.r = smoothed.r;
+		result.u = smoothed.u;
+		result.rateOfR = result.rateOfU = smoothed.rate;
+		result.slopeOfR = smoothed.slope;
+		result.slopeOfU += smoothed.slope;
+		const Eigen::Matrix<double, D - 1, 1> uT = result.u.template tail<D - 1>();
+		const double s = std::sqrt(uT.squaredNorm() + t * t);
+		result.slopeOfU.row(0) -= (uT / s).transpose() * result.slopeOfU.template bottomRows<D - 1>();
+		result.rateOfU[0] -= (uT.dot(result.rateOfU.template tail<D - 1>()) + t) / s;
+		result.u[0] -= s;
+		result.s = s;
+	} else if (law[i] == Law::frictionless) {
+		const double root = std::sqrt(zi[0] * zi[0] + 4 * t);
+		result.r[0] = SmoothedContact<D>::positive(zi[0], root, t);
+		result.u[0] = SmoothedContact<D>::positive(-zi[0], root, t);
+		result.rateOfR[0] = result.rateOfU[0] = 1 / root;
+		result.slopeOfR(0, 0) = result.r[0] / root;
+		result.slopeOfU(0, 0) += result.slopeOfR(0, 0);
+	}
+	return result;
+}
+
+template <int D> void CentralPathSystem<D>::startAt(const Eigen::VectorXd& z, double logT)
+{
+	f = Eigen::VectorXd::Zero(unknowns());
+	evaluate(z, logT);
+	f = F / std::exp(logT);
+}
+
+template <int D> void CentralPathSystem<D>::evaluate(const Eigen::VectorXd& z, double logT)
+{
+	const int count = int(scale.size());
+	const double t = std::exp(logT);
+	std::fill(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros(), 0.0);
+	for (int i = 0; i < count; ++i) {
+		const Contact here = contact(i, z, t);
+		const auto qi = q.segment<D>(D * i);
+		r.segment<D>(D * i) = here.r;
+		rateOfR.segment<D>(D * i) = here.rateOfR;
+		slope[i] = here.slopeOfR;
+		s[i] = here.s;
+		F.segment<D>(D * i) = here.u - qi;
+		terms.segment<D>(D * i) = here.u.cwiseAbs() + qi.cwiseAbs();
+		rateOfLog.segment<D>(D * i) = here.rateOfU;
+		addBlock(diagonalPlace[i], i, here.slopeOfU);
+	}
+	for (int i = 0; i < count; ++i)
+		for (int k = rowStart[i]; k < rowStart[i + 1]; ++k) {
+			const int j = column[k];
+			const Vector given = W[k] * r.segment<D>(D * j);
+			F.segment<D>(D * i) -= given;
+			terms.segment<D>(D * i) += given.cwiseAbs();
+			rateOfLog.segment<D>(D * i) -= W[k] * rateOfR.segment<D>(D * j);
+			addBlock(place[k], j, -W[k] * slope[j]);
+		}
+	F -= t * f;
+	rateOfLog = t * (rateOfLog - f);
+	constexpr double units = 4; // in the last place, of a few sums
+	excess = (F.cwiseAbs() - units * std::numeric_limits<double>::epsilon() * terms).maxCoeff();
+}
+
+template <int D> double CentralPathSystem<D>::slidingChange(const Eigen::VectorXd& change) const
+{
+	double largest = 0;
+	for (std::size_t i = 0; i < scale.size(); ++i) {
+		if (law[i] != Law::coulomb) continue;
+		const Vector dz = change.segment<D>(D * i), du = slope[i] * dz - dz;
+		largest = std::max(largest, du.template tail<D - 1>().norm() / s[i]);
+	}
+	return largest;
+}
+
+template <int D> bool CentralPathSystem<D>::factorise()
+{
+	if (dense()) {
+		denseFactor.compute(Eigen::MatrixXd(matrix));
+		sign = denseFactor.permutationP().determinant();
+		for (int i = 0; i < unknowns(); ++i) sign *= denseFactor.matrixLU()(i, i) < 0 ? -1 : 1;
+		return true;
+	}
+	factor.factorize(matrix);
+	if (factor.info() != Eigen::Success) return false;
+	sign = factor.signDeterminant();
+	return true;
+}
+
+template <int D> Eigen::VectorXd CentralPathSystem<D>::solve(const Eigen::VectorXd& b) const
+{
+	return dense() ? Eigen::VectorXd(denseFactor.solve(b)) : Eigen::VectorXd(factor.solve(b));
+}
+
+template <int D> void CentralPathSystem<D>::impulses(const Eigen::VectorXd& z, double logT, std::vector<Vector>& given) const
+{
+	given.resize(scale.size());
+	for (std::size_t i = 0; i < scale.size(); ++i) given[i] = size * scale[i].cwiseProduct(contact(i, z, std::exp(logT)).r);
+}
+
+template class CentralPathSystem<2>;
+template class CentralPathSystem<3>;
+
+} // namespace contactdynamics

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "BlockProblem.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/SparseLU>
+
+namespace contactdynamics {
+
+/// The equations of the central path, one D-vector z for each contact, at any t > 0:
+///
+///     F(z, t) = u(z, t) - W r(z, t) - q - s n - t f = 0,    s = sqrt(|u_T|^2 + t^2)
+///
+/// in scaled components, where the cones of all contacts have 45 degrees (r_N times mu, u_N by mu) and the diagonal blocks of W the mean 1. r and u
+/// are those of SmoothedContact.hpp, s n is the change of variable of De Saxce and Feng (1998) with its kink rounded: t = 0 is Coulomb's law with
+/// Signorini's condition. f makes a given point one of the path. A contact without friction has r_T = 0 and u_T = -z_T instead, one whose block of W
+/// is zero has r = 0.
+template <int D> class CentralPathSystem {
+public:
+	using Vector = Eigen::Matrix<double, D, 1>;
+	using Block = Eigen::Matrix<double, D, D>;
+
+	explicit CentralPathSystem(const BlockProblem& problem);
+
+	int unknowns() const { return int(D * scale.size()); }
+
+	/// Makes this a point of the path.
+	void startAt(const Eigen::VectorXd& z, double logT);
+
+	/// Sets value, rate and the matrix of the linear system. @param logT  tau = log t
+	void evaluate(const Eigen::VectorXd& z, double logT);
+
+	const Eigen::VectorXd& value() const { return F; }		  ///< F(z, t)
+	const Eigen::VectorXd& rate() const { return rateOfLog; } ///< dF/dtau
+
+	/// Largest change of a sliding velocity over s, where z of the last evaluate() changes by so much: beyond 1 the kink of s n lies between.
+	double slidingChange(const Eigen::VectorXd& change) const;
+
+	/// Whether F of the last evaluate() is round-off of its terms.
+	bool atRoundOff() const { return excess <= 0; }
+
+	/// Factorises dF/dz of the last evaluate(). @return false when it is singular to machine precision
+	bool factorise();
+	double signOfDeterminant() const { return sign; }	   ///< of the last factorise(), up to a sign common to all
+	Eigen::VectorXd solve(const Eigen::VectorXd& b) const; ///< (dF/dz)^-1 b
+
+	/// r(z, t) in the units of the problem [N s]: inside the cones.
+	void impulses(const Eigen::VectorXd& z, double logT, std::vector<Vector>& r) const;
+
+private:
+	enum class Law : unsigned char { coulomb, frictionless, none };
+
+	std::vector<Law> law;
+	std::vector<Vector> scale; // of r: given = scale * scaled
+	double size = 1;		   // of q, scaled
+	double excess = 0;		   // of |F| over the round-off of its terms
+	double sign = 1;
+	std::vector<Block> W; // of each block of the problem, scaled
+	std::vector<std::int32_t> rowStart, column;
+	Eigen::VectorXd q, f, r, F, terms, rateOfR, rateOfLog;
+	std::vector<Block> slope; // dr/dz of each contact
+	std::vector<double> s;
+	std::vector<int> place;			// of each block, in the values of the first of its D columns
+	std::vector<int> diagonalPlace; // of each contact's own block
+
+	using Sparse = Eigen::SparseMatrix<double>;
+	Sparse matrix;
+	Eigen::SparseLU<Sparse, Eigen::AMDOrdering<int>> factor;
+	Eigen::PartialPivLU<Eigen::MatrixXd> denseFactor;
+
+	/// A contact at z, by its law.
+	struct Contact {
+		Vector r = Vector::Zero(), u, rateOfR = Vector::Zero(), rateOfU = Vector::Zero(); // rates: d/dt; u less s n
+		double s = 0;
+		Block slopeOfR = Block::Zero(), slopeOfU = -Block::Identity(); // d/dz
+	};
+	Contact contact(std::size_t i, const Eigen::VectorXd& z, double t) const;
+
+	bool dense() const { return unknowns() < 100; }
+	void describe(const BlockProblem& problem);
+	void layOut();
+	void addBlock(int where, std::int32_t contact, const Block& block);
+	int find(int row, int col) const;
+};
+
+} // namespace contactdynamics

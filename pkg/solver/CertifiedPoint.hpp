@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "BlockOperator.hpp"
+
+namespace contactdynamics {
+
+/// Impulses inside their cones, and the certificate there.
+template <int D> struct CertifiedPoint {
+	double residual = 0;
+	std::vector<Eigen::Matrix<double, D, 1>> impulses;
+};
+
+/// Keeps the operator's impulses as the best point where its certificate says so; not where contacts go on closing whatever the impulses are.
+template <int D> void certify(BlockOperator<D>& blocks, double tolerance, CertifiedPoint<D>& best)
+{
+	const double residual = blocks.certificate();
+	if (!(residual < best.residual) || blocks.crushed(tolerance).any()) return;
+	best.residual = residual;
+	blocks.impulses(best.impulses);
+}
+
+} // namespace contactdynamics
