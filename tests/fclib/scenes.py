@@ -171,6 +171,13 @@ def vice(bricks: int, speed: float) -> Local:
     return bodies.problem(0.4)
 
 
+def tangle(contacts: int, mu: float, seed: int) -> Local:
+    """Half as many degrees of freedom as contact components, coupled at random. With this friction and seed sweeps and Newton steps stay at 1e-3."""
+    random = np.random.default_rng(seed)
+    H = random.standard_normal((3 * contacts // 2, 3 * contacts))
+    return Local(3, H.T @ H, H.T @ random.standard_normal(len(H)), np.full(contacts, mu))
+
+
 def unsymmetric(problem: Local, relative: float) -> Local:
     noise = np.random.default_rng(3).normal(size=problem.W.shape)
     return Local(problem.dimension, problem.W * (1 + relative * noise), problem.q, problem.mu)
@@ -203,6 +210,7 @@ def scenes(small: bool = False) -> dict[str, Local]:
         "packing_ratio100": packing(30 * size**3, 0.5, 3, heavy=100),
         "arch_mu06": arch(9 * size, 0.6),
         "arch_mu03": arch(9 * size, 0.3),
+        "tangle_mu3": tangle(30, 3.0, 14),
         "vice_open": vice(2 * size, -0.1),
         "unsolvable_vice": vice(2 * size, 0.1),
     }
