@@ -13,7 +13,6 @@ constexpr double farthest = 0.5; // a correction, relative: beyond it the step w
 constexpr double leastContraction = 0.5;
 constexpr int mostCorrections = 7;
 constexpr double ofStep = 0.1;									  // the last correction, of the step
-constexpr double ofSliding = 0.1;								  // and of any sliding velocity
 constexpr double finer = 0.01, finest = 1e-6;					  // of the last correction, relative, from start to start
 constexpr double leastCosine = 0.7, straight = 0.95, bent = 0.85; // of the angle between two tangents
 constexpr double leastLogT = -70;								  // exp(-70) = 4e-31: complementarity far below round-off
@@ -98,7 +97,7 @@ template <int D> bool CentralPath<D>::correct(Point& next, const Tangent& across
 		const double changeOfLogT = -across.weighted.dot(toCurve) / (across.weighted.dot(next.slope) + across.logT);
 		const Eigen::VectorXd change = toCurve + changeOfLogT * next.slope;
 		const double size = std::max(relative(change, next), std::abs(changeOfLogT));
-		const bool done = (size < std::min(accuracy, ofStep * moved) && system.slidingChange(change) < ofSliding) || system.atRoundOff();
+		const bool done = size < std::min(accuracy, ofStep * moved) || system.atRoundOff();
 		if (!done && !(size <= farthest && (size <= accuracy || size <= leastContraction * before))) return false; // also where it is not a number
 		next.z += change;
 		next.logT += changeOfLogT;

@@ -14,7 +14,6 @@ template <int D> CentralPathSystem<D>::CentralPathSystem(const BlockProblem& pro
 	layOut();
 	for (Eigen::VectorXd* vector : {&r, &F, &terms, &rateOfR, &rateOfLog}) vector->resize(unknowns());
 	slope.resize(scale.size());
-	s.resize(scale.size());
 }
 
 template <int D> void CentralPathSystem<D>::describe(const BlockProblem& problem)
@@ -98,7 +97,6 @@ template <int D> typename CentralPathSystem<D>::Contact CentralPathSystem<D>::co
 		result.slopeOfU.row(0) -= (uT / s).transpose() * result.slopeOfU.template bottomRows<D - 1>();
 		result.rateOfU[0] -= (uT.dot(result.rateOfU.template tail<D - 1>()) + t) / s;
 		result.u[0] -= s;
-		result.s = s;
 	} else if (law[i] == Law::frictionless) {
 		const double root = std::sqrt(zi[0] * zi[0] + 4 * t);
 		result.r[0] = SmoothedContact<D>::positive(zi[0], root, t);
@@ -128,7 +126,6 @@ template <int D> void CentralPathSystem<D>::evaluate(const Eigen::VectorXd& z, d
 		r.segment<D>(D * i) = here.r;
 		rateOfR.segment<D>(D * i) = here.rateOfR;
 		slope[i] = here.slopeOfR;
-		s[i] = here.s;
 		F.segment<D>(D * i) = here.u - qi;
 		terms.segment<D>(D * i) = here.u.cwiseAbs() + qi.cwiseAbs();
 		rateOfLog.segment<D>(D * i) = here.rateOfU;
@@ -147,17 +144,6 @@ template <int D> void CentralPathSystem<D>::evaluate(const Eigen::VectorXd& z, d
 	rateOfLog = t * (rateOfLog - f);
 	constexpr double units = 4; // in the last place, of a few sums
 	excess = (F.cwiseAbs() - units * std::numeric_limits<double>::epsilon() * terms).maxCoeff();
-}
-
-template <int D> double CentralPathSystem<D>::slidingChange(const Eigen::VectorXd& change) const
-{
-	double largest = 0;
-	for (std::size_t i = 0; i < scale.size(); ++i) {
-		if (law[i] != Law::coulomb) continue;
-		const Vector dz = change.segment<D>(D * i), du = slope[i] * dz - dz;
-		largest = std::max(largest, du.template tail<D - 1>().norm() / s[i]);
-	}
-	return largest;
 }
 
 template <int D> bool CentralPathSystem<D>::factorise()

@@ -34,9 +34,6 @@ public:
 	const Eigen::VectorXd& value() const { return F; }		  ///< F(z, t)
 	const Eigen::VectorXd& rate() const { return rateOfLog; } ///< dF/dtau
 
-	/// Largest change of a sliding velocity over s, where z of the last evaluate() changes by so much: beyond 1 the kink of s n lies between.
-	double slidingChange(const Eigen::VectorXd& change) const;
-
 	/// Whether F of the last evaluate() is round-off of its terms.
 	bool atRoundOff() const { return excess <= 0; }
 
@@ -59,8 +56,7 @@ private:
 	std::vector<Block> W; // of each block of the problem, scaled
 	std::vector<std::int32_t> rowStart, column;
 	Eigen::VectorXd q, f, r, F, terms, rateOfR, rateOfLog;
-	std::vector<Block> slope; // dr/dz of each contact
-	std::vector<double> s;
+	std::vector<Block> slope;		// dr/dz of each contact
 	std::vector<int> place;			// of each block, in the values of the first of its D columns
 	std::vector<int> diagonalPlace; // of each contact's own block
 
@@ -72,8 +68,7 @@ private:
 	/// A contact at z, by its law.
 	struct Contact {
 		Vector r = Vector::Zero(), u, rateOfR = Vector::Zero(), rateOfU = Vector::Zero(); // rates: d/dt; u less s n
-		double s = 0;
-		Block slopeOfR = Block::Zero(), slopeOfU = -Block::Identity(); // d/dz
+		Block slopeOfR = Block::Zero(), slopeOfU = -Block::Identity();					  // d/dz
 	};
 	Contact contact(std::size_t i, const Eigen::VectorXd& z, double t) const;
 
