@@ -136,7 +136,7 @@ public:
 		}
 	}
 
-	/// The same without a look at the cones: for trial points of a line search.
+	/// The same without a look at the cones, in which they lie.
 	void setRaw(const std::vector<Vector>& given)
 	{
 		visitedAll = false;

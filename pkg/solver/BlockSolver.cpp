@@ -21,9 +21,10 @@ constexpr double sweepsPerStep = 10; // cost of the sweeps before the first fini
 // all problems was rejected: Capsules 4.7 against 32 ms, and a wall with masses over three decades stayed at 1.1e-8.
 constexpr double sweepsPerSmallStep = 3;
 constexpr std::size_t smallProblem = 100; // contacts
-// A path takes 25 to 150 linear systems, rarely 250, the longest seen 1100: a usual one at a stretch, then as many as the price of the sweeps allows.
-constexpr int fewestPathSteps = 250;
-constexpr double pathPerSweeps = 4; // cost of a stretch, in the sweeps so far
+// A path takes 25 to 150 linear systems, rarely 250, the longest seen 1100: a usual one at a stretch where that costs no more than twenty times the
+// sweeps so far, later as many as cost four times the sweeps.
+constexpr double usualPath = 250; // systems
+constexpr double usualPathPerSweeps = 20, pathPerSweeps = 4;
 
 /// Loop, finish and path in turn; keeps the best point.
 template <int D> class BlockSolver {
@@ -72,10 +73,10 @@ private:
 			if (!sweep(until - report.iterations, options.acceleration)) break;
 			if (solved() || !finishes) continue;
 			if (!newton) newton.emplace(problem, blocks);
-			const double sweepsOfStep = newton->stepCost() / (2.0 * double(problem.blocks.size())), spent = report.iterations;
+			const double sweepsOfStep = inSweeps(newton->stepCost()), spent = report.iterations;
 			const double before = sweepsOfStep * (problem.contacts() < smallProblem ? sweepsPerSmallStep : sweepsPerStep);
 			const bool last = report.iterations == options.maxIterations;
-			if (last ? spent < fewestSweeps : spent < before) {
+			if (last ? spent < std::max<double>(fewestSweeps, sweepsOfStep) : spent < before) {
 				until = int(std::min(1e9, std::max(2 * spent, before + 1)));
 				continue;
 			}
@@ -83,21 +84,31 @@ private:
 			blocks.impulses(best.impulses);
 			report.newtonSteps += newton->improve(best, options.tolerance);
 			atBest = false;
-			if (!solved()) follow(std::max(last ? 0 : fewestPathSteps, int(std::min(1e6, pathPerSweeps * spent / sweepsOfStep))));
+			if (!solved()) follow(last);
 			restore();
 			until = int(std::min(1e9, 2 * spent));
 		}
 	}
 
-	/// Goes on along the central path, for at most so many linear systems.
-	void follow(int systems)
+	double inSweeps(double operations) const { return operations / (2.0 * double(problem.blocks.size())); }
+
+	/// Goes on along the central path as far as the sweeps so far allow. @param last  nothing comes after it: it may not cost more than they say
+	void follow(bool last)
 	{
-		if (!path) path.emplace(problem);
-		report.newtonSteps += path->follow(systems, [&](const std::vector<Vector>& impulses) {
+		const double spent = report.iterations;
+		if (pathPerSweeps * spent < inSweeps(newton->stepCost())) return;
+		const auto reached = [&](const std::vector<Vector>& impulses) {
 			blocks.setImpulses(impulses);
 			certify(blocks, options.tolerance, best);
 			return solved();
-		});
+		};
+		if (!path) {
+			path.emplace(problem);
+			report.newtonSteps += path->follow(1, reached); // tells the price of the others
+		}
+		const double sweepsOfSystem = inSweeps(std::max(newton->stepCost(), path->systemCost()));
+		const double usual = last ? 0 : std::min(usualPath, usualPathPerSweeps * spent / sweepsOfSystem);
+		report.newtonSteps += path->follow(int(std::min(1e6, std::max(usual, pathPerSweeps * spent / sweepsOfSystem))), reached);
 	}
 
 	/// Plain sweeps as long as they promise to be done soon. False when the iterate is not finite.

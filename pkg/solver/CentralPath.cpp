@@ -12,17 +12,21 @@ constexpr double shortest = 1e-10;
 constexpr double farthest = 0.5; // a correction, relative: beyond it the step was too long
 constexpr double leastContraction = 0.5;
 constexpr int mostCorrections = 7;
-constexpr double ofStep = 0.1;									  // the last correction, of the step
-constexpr double finer = 0.01, finest = 1e-6;					  // of the last correction, relative, from start to start
+constexpr double ofStep = 0.1;				  // the last correction, of the step
+constexpr double coarse = 0.01, finer = 0.01; // the last correction, relative, and from start to start
+constexpr int mostStarts = 3;
 constexpr double leastCosine = 0.7, straight = 0.95, bent = 0.85; // of the angle between two tangents
 constexpr double leastLogT = -70;								  // exp(-70) = 4e-31: complementarity far below round-off
 
 } // namespace
 
-template <int D> CentralPath<D>::CentralPath(const BlockProblem& problem) : system(problem) { start(); }
+template <int D> CentralPath<D>::CentralPath(const BlockProblem& problem) : system(problem) {}
 
 template <int D> void CentralPath<D>::start()
 {
+	over = starts == mostStarts;
+	if (over) return;
+	accuracy = coarse * std::pow(finer, starts++);
 	length = firstLength;
 	at.z = Eigen::VectorXd::Zero(system.unknowns());
 	at.logT = firstLogT;
@@ -40,10 +44,8 @@ template <int D> int CentralPath<D>::follow(int most, const std::function<bool(c
 	const int before = solved;
 	std::vector<Vector> impulses;
 	while (!over && solved - before < most) {
-		if (!step() || at.logT > mostLogT) {
-			accuracy *= finer;
-			over = accuracy < finest;
-			if (!over) start();
+		if (starts == 0 || !step() || at.logT > mostLogT) {
+			start();
 			continue;
 		}
 		system.impulses(at.z, at.logT, impulses);
@@ -96,12 +98,13 @@ template <int D> bool CentralPath<D>::correct(Point& next, const Tangent& across
 		const Eigen::VectorXd toCurve = system.solve(-system.value());
 		const double changeOfLogT = -across.weighted.dot(toCurve) / (across.weighted.dot(next.slope) + across.logT);
 		const Eigen::VectorXd change = toCurve + changeOfLogT * next.slope;
+		if (!change.allFinite()) return false;
 		const double size = std::max(relative(change, next), std::abs(changeOfLogT));
 		const bool done = size < std::min(accuracy, ofStep * moved) || system.atRoundOff();
-		if (!done && !(size <= farthest && (size <= accuracy || size <= leastContraction * before))) return false; // also where it is not a number
+		if (!done && !(size <= farthest && (size <= accuracy || size <= leastContraction * before))) return false;
 		next.z += change;
 		next.logT += changeOfLogT;
-		if (done) return next.z.allFinite();
+		if (done) return true;
 		before = size;
 	}
 	return false;

@@ -15,18 +15,20 @@ namespace contactdynamics {
 /// in the plane across it. Which way is onward the sign of det dF/dz says: t falls where it is as at the start, and grows where it is not. A tangent
 /// by its angle with the last one was rejected: on a problem of 463 contacts it took a fold for a turn back and returned to the start.
 ///
-/// All lengths are relative to what a contact can move without a change of its kind, sqrt(|z|^2 + 4 t), the largest of all contacts counting: with
-/// one length for all, light contacts jump to another branch. A path that is lost, because its corrections were too coarse for a sharp fold, is
-/// followed anew from the start with finer ones, twice.
+/// All lengths are relative to what a contact can move without a change of its kind, sqrt(|z|^2 + 4 t): the largest of all contacts for a correction,
+/// the root of their mean square for a step. With one length for all, light contacts jump to another branch. A path that is lost, because its
+/// corrections were too coarse for a sharp fold, is followed anew from the start with finer ones, twice.
 template <int D> class CentralPath {
 public:
 	using Vector = Eigen::Matrix<double, D, 1>;
 
-	explicit CentralPath(const BlockProblem& problem);
+	explicit CentralPath(const BlockProblem& problem); ///< with at least one contact
 
-	/// Goes on along the path. @param most  linear systems to solve, a few more for the step that is under way
+	double systemCost() const { return system.cost(); } ///< operations, of the last system solved; 0 before
+
+	/// Goes on along the path. @param most  linear systems to solve, and as many more as end the step that is under way
 	/// @param reached  is given the impulses of each point, inside the cones [N s], and returns true where they will do
-	/// @return linear systems solved; none where it cannot be followed further: round-off, a branch that comes back to the start or goes to infinity
+	/// @return linear systems solved; none where it could not be followed to a point that will do from any of its starts
 	int follow(int most, const std::function<bool(const std::vector<Vector>&)>& reached);
 
 private:
@@ -46,7 +48,8 @@ private:
 	CentralPathSystem<D> system;
 	Point at;
 	double firstSign = 1, length = 0.5; // of the next step
-	double accuracy = 0.01;				// of the corrections
+	double accuracy = 0;				// of the corrections
+	int starts = 0;
 	bool over = false;
 	int solved = 0;
 

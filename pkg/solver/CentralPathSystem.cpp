@@ -8,6 +8,10 @@
 
 namespace contactdynamics {
 
+namespace {
+constexpr double leastFriction = 1e-100; // its inverse squared must be a number
+} // namespace
+
 template <int D> CentralPathSystem<D>::CentralPathSystem(const BlockProblem& problem) : rowStart(problem.rowStart), column(problem.column)
 {
 	describe(problem);
@@ -26,9 +30,10 @@ template <int D> void CentralPathSystem<D>::describe(const BlockProblem& problem
 			if (std::size_t(column[k]) == i) own += given(k);
 		const double mu = problem.friction[i];
 		Vector factors = Vector::Ones();
-		if (mu > 0) factors[0] = 1 / mu;
-		const double mean = mu > 0 ? factors.cwiseAbs2().dot(own.diagonal()) / D : own(0, 0);
-		law.push_back(!(own(0, 0) > 0 && mean > 0) ? Law::none : mu > 0 ? Law::coulomb : Law::frictionless);
+		const bool rough = mu > leastFriction;
+		if (rough) factors[0] = 1 / mu;
+		const double mean = rough ? factors.cwiseAbs2().dot(own.diagonal()) / D : own(0, 0);
+		law.push_back(!(own(0, 0) > 0 && mean > 0) ? Law::none : rough ? Law::coulomb : Law::frictionless);
 		scale.push_back(law.back() == Law::none ? Vector(Vector::Ones()) : Vector(factors / std::sqrt(mean)));
 	}
 	for (std::size_t i = 0; i < count; ++i)
@@ -36,7 +41,7 @@ template <int D> void CentralPathSystem<D>::describe(const BlockProblem& problem
 			W.push_back(scale[i].asDiagonal() * Block(given(k)) * scale[std::size_t(column[k])].asDiagonal());
 	q.resize(unknowns());
 	for (std::size_t i = 0; i < count; ++i) q.segment<D>(D * i) = scale[i].cwiseProduct(Eigen::Map<const Vector>(&problem.q[D * i]));
-	size = q.norm() / std::sqrt(double(count));
+	size = q.stableNorm() / std::sqrt(double(count));
 	if (size > 0) q /= size;
 }
 
@@ -151,13 +156,20 @@ template <int D> bool CentralPathSystem<D>::factorise()
 	if (dense()) {
 		denseFactor.compute(Eigen::MatrixXd(matrix));
 		sign = denseFactor.permutationP().determinant();
-		for (int i = 0; i < unknowns(); ++i) sign *= denseFactor.matrixLU()(i, i) < 0 ? -1 : 1;
-		return true;
+		const Eigen::VectorXd pivots = denseFactor.matrixLU().diagonal();
+		for (const double pivot : pivots) sign *= pivot < 0 ? -1 : 1;
+		return pivots.allFinite() && (pivots.array() != 0).all();
 	}
 	factor.factorize(matrix);
 	if (factor.info() != Eigen::Success) return false;
 	sign = factor.signDeterminant();
 	return true;
+}
+
+template <int D> double CentralPathSystem<D>::cost() const
+{
+	const double n = unknowns();
+	return dense() ? double(denseFactor.rows()) * n * n : 2.0 * double(factor.nnzL()) * double(factor.nnzU()) / n;
 }
 
 template <int D> Eigen::VectorXd CentralPathSystem<D>::solve(const Eigen::VectorXd& b) const

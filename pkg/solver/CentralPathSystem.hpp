@@ -12,10 +12,10 @@ namespace contactdynamics {
 ///
 ///     F(z, t) = u(z, t) - W r(z, t) - q - s n - t f = 0,    s = sqrt(|u_T|^2 + t^2)
 ///
-/// in scaled components, where the cones of all contacts have 45 degrees (r_N times mu, u_N by mu) and the diagonal blocks of W the mean 1. r and u
-/// are those of SmoothedContact.hpp, s n is the change of variable of De Saxce and Feng (1998) with its kink rounded: t = 0 is Coulomb's law with
-/// Signorini's condition. f makes a given point one of the path. A contact without friction has r_T = 0 and u_T = -z_T instead, one whose block of W
-/// is zero has r = 0.
+/// in scaled components, where the cones of all contacts have 45 degrees (r_N times mu, u_N by mu) and the diagonal of each block W_ii has the
+/// mean 1. r and u are those of SmoothedContact.hpp, s n is the change of variable of De Saxce and Feng (1998) with its kink rounded: t = 0 is
+/// Coulomb's law with Signorini's condition. f makes a given point one of the path. A contact without friction (mu < 1e-100) has r_T = 0 and u_T =
+/// -z_T instead, one that nothing moves along its normal has r = 0.
 template <int D> class CentralPathSystem {
 public:
 	using Vector = Eigen::Matrix<double, D, 1>;
@@ -39,7 +39,8 @@ public:
 
 	/// Factorises dF/dz of the last evaluate(). @return false when it is singular to machine precision
 	bool factorise();
-	double signOfDeterminant() const { return sign; }	   ///< of the last factorise(), up to a sign common to all
+	double signOfDeterminant() const { return sign; }	   ///< of the last factorise()
+	double cost() const;								   ///< operations of the last factorise(), by the size of its factors; 0 before
 	Eigen::VectorXd solve(const Eigen::VectorXd& b) const; ///< (dF/dz)^-1 b
 
 	/// r(z, t) in the units of the problem [N s]: inside the cones.
