@@ -36,6 +36,20 @@ inline BlockProblem blockProblem(int dimension, const DenseMatrix& H, const Dens
 	return p;
 }
 
+/// Two contacts push one body from both sides: u_1 = r_1 - r_2 - 1 and u_2 = r_2 - r_1 - 1 cannot both be >= 0, there is no solution.
+inline BlockProblem squeezed()
+{
+	BlockProblem p;
+	p.dimension = 2;
+	p.rowStart = {0, 2, 4};
+	p.column = {0, 1, 0, 1};
+	p.blocks = {1, 0, 0, 1, -1, 0, 0, 1, -1, 0, 0, 1, 1, 0, 0, 1};
+	p.q = {-1, 0, -1, 0};
+	p.friction = {0.5, 0.5};
+	p.impulse.assign(4, 0);
+	return p;
+}
+
 struct Wall {
 	int dimension = 3, rows = 4, bricks = 3; ///< bricks in the lowest row; every other row has one less, shifted by half a brick
 	double friction = 0.6;

@@ -206,15 +206,7 @@ TEST(BlockSolver, NoSolutionIsNotConverged)
 	immobile.q = {-1, 0, 0.1, -1, 0.5, 0}; // the first contact moves along t2, where it has no mobility, with friction that would hold it
 	immobile.friction = {0.5, 0.5};
 	immobile.impulse.assign(6, 0);
-	// Two contacts push one body from both sides: u_1 = r_1 - r_2 - 1, u_2 = r_2 - r_1 - 1 cannot both be >= 0.
-	BlockProblem squeezed;
-	squeezed.dimension = 2;
-	squeezed.rowStart = {0, 2, 4};
-	squeezed.column = {0, 1, 0, 1};
-	squeezed.blocks = {1, 0, 0, 1, -1, 0, 0, 1, -1, 0, 0, 1, 1, 0, 0, 1};
-	squeezed.q = {-1, 0, -1, 0};
-	squeezed.friction = {0.5, 0.5};
-	squeezed.impulse.assign(4, 0);
+	BlockProblem squeezed = scenes::squeezed();
 	for (const Measure measure : {Measure::naturalMap, Measure::siconos})
 		for (const double tolerance : {1e-4, 1e-8}) {
 			const SolveReport report = solve(squeezed, upTo(tolerance, 20000), measure);

@@ -213,18 +213,10 @@ TEST(CentralPath, LeadsToSolutionsOfWalls)
 		}
 }
 
-// u_1 = r_1 - r_2 - 1 and u_2 = r_2 - r_1 - 1 cannot both be >= 0: the path goes to infinity, and its following comes to an end.
+// The path goes to infinity, and its following comes to an end.
 TEST(CentralPath, EndsWhereThereIsNoSolution)
 {
-	BlockProblem squeezed;
-	squeezed.dimension = 2;
-	squeezed.rowStart = {0, 2, 4};
-	squeezed.column = {0, 1, 0, 1};
-	squeezed.blocks = {1, 0, 0, 1, -1, 0, 0, 1, -1, 0, 0, 1, 1, 0, 0, 1};
-	squeezed.q = {-1, 0, -1, 0};
-	squeezed.friction = {0.5, 0.5};
-	squeezed.impulse.assign(4, 0);
-	CentralPath<2> path(squeezed);
+	CentralPath<2> path(scenes::squeezed());
 	const int solved = path.follow(5000, [](const std::vector<VectorOf<2>>&) { return false; });
 	EXPECT_LT(solved, 5000);
 	EXPECT_EQ(path.follow(100, [](const std::vector<VectorOf<2>>&) { return true; }), 0);
