@@ -32,11 +32,11 @@ template <int D> void CentralPath<D>::start()
 	at.logT = firstLogT;
 	system.startAt(at.z, at.logT);
 	system.evaluate(at.z, at.logT);
-	over = !system.factorise();
+	over = !system.jacobian().factorise();
 	++solved;
 	if (over) return;
-	at.slope = system.solve(-system.rate());
-	at.sign = firstSign = system.signOfDeterminant();
+	at.slope = system.jacobian().solve(-system.rate());
+	at.sign = firstSign = system.jacobian().signOfDeterminant();
 }
 
 template <int D> int CentralPath<D>::follow(int most, const std::function<bool(const std::vector<Vector>&)>& reached)
@@ -90,12 +90,12 @@ template <int D> bool CentralPath<D>::correct(Point& next, const Tangent& across
 	double before = 1;
 	while (next.corrections < mostCorrections) {
 		system.evaluate(next.z, next.logT);
-		if (!system.factorise()) return false;
+		if (!system.jacobian().factorise()) return false;
 		++solved;
 		++next.corrections;
-		next.slope = system.solve(-system.rate());
-		next.sign = system.signOfDeterminant();
-		const Eigen::VectorXd toCurve = system.solve(-system.value());
+		next.slope = system.jacobian().solve(-system.rate());
+		next.sign = system.jacobian().signOfDeterminant();
+		const Eigen::VectorXd toCurve = system.jacobian().solve(-system.value());
 		const double changeOfLogT = -across.weighted.dot(toCurve) / (across.weighted.dot(next.slope) + across.logT);
 		const Eigen::VectorXd change = toCurve + changeOfLogT * next.slope;
 		if (!change.allFinite()) return false;

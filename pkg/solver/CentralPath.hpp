@@ -24,7 +24,7 @@ public:
 
 	explicit CentralPath(const BlockProblem& problem); ///< with at least one contact
 
-	double systemCost() const { return system.cost(); } ///< operations, of the last system solved; 0 before
+	double systemCost() const { return system.jacobian().operations(); } ///< operations, of the last system solved; 0 before
 
 	/// Goes on along the path. @param most  linear systems to solve, and as many more as end the step that is under way
 	/// @param reached  is given the impulses of each point, inside the cones [N s], and returns true where they will do

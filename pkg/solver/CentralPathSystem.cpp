@@ -57,30 +57,27 @@ template <int D> void CentralPathSystem<D>::layOut()
 		addPattern(i, i);
 		for (int k = rowStart[i]; k < rowStart[i + 1]; ++k) addPattern(i, column[k]);
 	}
-	matrix.resize(unknowns(), unknowns());
-	matrix.setFromTriplets(entries.begin(), entries.end());
-	matrix.makeCompressed();
+	system.matrix.resize(unknowns(), unknowns());
+	system.matrix.setFromTriplets(entries.begin(), entries.end());
+	system.matrix.makeCompressed();
 	for (int i = 0; i < count; ++i) {
 		diagonalPlace.push_back(find(D * i, D * i));
 		for (int k = rowStart[i]; k < rowStart[i + 1]; ++k) place.push_back(find(D * i, D * column[k]));
 	}
-	if (!dense()) {
-		factor.isSymmetric(true);
-		factor.analyzePattern(matrix);
-	}
+	system.analyse();
 }
 
 template <int D> int CentralPathSystem<D>::find(int row, int col) const
 {
-	const int* first = matrix.innerIndexPtr() + matrix.outerIndexPtr()[col];
-	const int* last = matrix.innerIndexPtr() + matrix.outerIndexPtr()[col + 1];
+	const int* first = system.matrix.innerIndexPtr() + system.matrix.outerIndexPtr()[col];
+	const int* last = system.matrix.innerIndexPtr() + system.matrix.outerIndexPtr()[col + 1];
 	return int(std::lower_bound(first, last, row) - first);
 }
 
 template <int D> void CentralPathSystem<D>::addBlock(int where, std::int32_t contact, const Block& block)
 {
 	for (int b = 0; b < D; ++b) {
-		double* values = matrix.valuePtr() + matrix.outerIndexPtr()[D * contact + b] + where;
+		double* values = system.matrix.valuePtr() + system.matrix.outerIndexPtr()[D * contact + b] + where;
 		for (int a = 0; a < D; ++a) values[a] += block(a, b);
 	}
 }
@@ -124,7 +121,7 @@ template <int D> void CentralPathSystem<D>::evaluate(const Eigen::VectorXd& z, d
 {
 	const int count = int(scale.size());
 	const double t = std::exp(logT);
-	std::fill(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros(), 0.0);
+	std::fill(system.matrix.valuePtr(), system.matrix.valuePtr() + system.matrix.nonZeros(), 0.0);
 	for (int i = 0; i < count; ++i) {
 		const Contact here = contact(i, z, t);
 		const auto qi = q.segment<D>(D * i);
@@ -149,32 +146,6 @@ template <int D> void CentralPathSystem<D>::evaluate(const Eigen::VectorXd& z, d
 	rateOfLog = t * (rateOfLog - f);
 	constexpr double units = 4; // in the last place, of a few sums
 	excess = (F.cwiseAbs() - units * std::numeric_limits<double>::epsilon() * terms).maxCoeff();
-}
-
-template <int D> bool CentralPathSystem<D>::factorise()
-{
-	if (dense()) {
-		denseFactor.compute(Eigen::MatrixXd(matrix));
-		sign = denseFactor.permutationP().determinant();
-		const Eigen::VectorXd pivots = denseFactor.matrixLU().diagonal();
-		for (const double pivot : pivots) sign *= pivot < 0 ? -1 : 1;
-		return pivots.allFinite() && (pivots.array() != 0).all();
-	}
-	factor.factorize(matrix);
-	if (factor.info() != Eigen::Success) return false;
-	sign = factor.signDeterminant();
-	return true;
-}
-
-template <int D> double CentralPathSystem<D>::cost() const
-{
-	const double n = unknowns();
-	return dense() ? double(denseFactor.rows()) * n * n : 2.0 * double(factor.nnzL()) * double(factor.nnzU()) / n;
-}
-
-template <int D> Eigen::VectorXd CentralPathSystem<D>::solve(const Eigen::VectorXd& b) const
-{
-	return dense() ? Eigen::VectorXd(denseFactor.solve(b)) : Eigen::VectorXd(factor.solve(b));
 }
 
 template <int D> void CentralPathSystem<D>::impulses(const Eigen::VectorXd& z, double logT, std::vector<Vector>& given) const

@@ -2,9 +2,7 @@
 #pragma once
 
 #include "BlockProblem.hpp"
-
-#include <Eigen/Dense>
-#include <Eigen/SparseLU>
+#include "SquareSystem.hpp"
 
 namespace contactdynamics {
 
@@ -37,11 +35,9 @@ public:
 	/// Whether F of the last evaluate() is round-off of its terms.
 	bool atRoundOff() const { return excess <= 0; }
 
-	/// Factorises dF/dz of the last evaluate(). @return false when it is singular to machine precision
-	bool factorise();
-	double signOfDeterminant() const { return sign; }	   ///< of the last factorise()
-	double cost() const;								   ///< operations of the last factorise(), by the size of its factors; 0 before
-	Eigen::VectorXd solve(const Eigen::VectorXd& b) const; ///< (dF/dz)^-1 b
+	/// dF/dz of the last evaluate(), to be factorised.
+	SquareSystem& jacobian() { return system; }
+	const SquareSystem& jacobian() const { return system; }
 
 	/// r(z, t) in the units of the problem [N s]: inside the cones.
 	void impulses(const Eigen::VectorXd& z, double logT, std::vector<Vector>& r) const;
@@ -53,18 +49,14 @@ private:
 	std::vector<Vector> scale; // of r: given = scale * scaled
 	double size = 1;		   // of q, scaled
 	double excess = 0;		   // of |F| over the round-off of its terms
-	double sign = 1;
-	std::vector<Block> W; // of each block of the problem, scaled
+	std::vector<Block> W;	   // of each block of the problem, scaled
 	std::vector<std::int32_t> rowStart, column;
 	Eigen::VectorXd q, f, r, F, terms, rateOfR, rateOfLog;
 	std::vector<Block> slope;		// dr/dz of each contact
 	std::vector<int> place;			// of each block, in the values of the first of its D columns
 	std::vector<int> diagonalPlace; // of each contact's own block
 
-	using Sparse = Eigen::SparseMatrix<double>;
-	Sparse matrix;
-	Eigen::SparseLU<Sparse, Eigen::AMDOrdering<int>> factor;
-	Eigen::PartialPivLU<Eigen::MatrixXd> denseFactor;
+	SquareSystem system;
 
 	/// A contact at z, by its law.
 	struct Contact {
@@ -73,7 +65,6 @@ private:
 	};
 	Contact contact(std::size_t i, const Eigen::VectorXd& z, double t) const;
 
-	bool dense() const { return unknowns() < 100; }
 	void describe(const BlockProblem& problem);
 	void layOut();
 	void addBlock(int where, std::int32_t contact, const Block& block);

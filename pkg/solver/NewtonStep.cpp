@@ -87,16 +87,16 @@ template <int D> double NewtonStep<D>::cost() const
 			entries.emplace_back(i, problem.column[k], 1);
 			entries.emplace_back(problem.column[k], i, 1);
 		}
-	Sparse pattern(count, count);
+	Eigen::SparseMatrix<double> pattern(count, count);
 	pattern.setFromTriplets(entries.begin(), entries.end());
 	Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
 	Eigen::AMDOrdering<int>()(pattern, order);
-	Sparse ordered;
+	Eigen::SparseMatrix<double> ordered;
 	ordered = pattern.twistedBy(order.inverse());
 	std::vector<int> parent(count, -1), seen(count, -1), below(count, 0);
 	for (int row = 0; row < count; ++row) {
 		seen[row] = row;
-		for (Sparse::InnerIterator entry(ordered, row); entry; ++entry)
+		for (Eigen::SparseMatrix<double>::InnerIterator entry(ordered, row); entry; ++entry)
 			for (int column = int(entry.row()); column < row && seen[column] != row; column = parent[column]) {
 				if (parent[column] < 0) parent[column] = row;
 				++below[column];
@@ -111,26 +111,14 @@ template <int D> double NewtonStep<D>::cost() const
 
 template <int D> bool NewtonStep<D>::factorAndSolve(int size, bool samePattern, const std::vector<Eigen::Triplet<double>>& entries)
 {
-	constexpr int denseBelow = 100; // unknowns
-	if (size < denseBelow) {
-		Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
-		for (const auto& entry : entries) dense(entry.row(), entry.col()) += entry.value();
-		denseFactor.compute(dense);
-		solution = denseFactor.solve(right);
-		return true;
-	}
-	matrix.resize(size, size);
-	matrix.setFromTriplets(entries.begin(), entries.end());
-	if (!samePattern) {
-		factor.isSymmetric(true);
-		factor.analyzePattern(matrix);
-	}
-	factor.factorize(matrix);
-	if (factor.info() != Eigen::Success) {
+	system.matrix.resize(size, size);
+	system.matrix.setFromTriplets(entries.begin(), entries.end());
+	if (!samePattern) system.analyse();
+	if (!system.factorise()) {
 		position.clear(); // no pattern to keep
 		return false;
 	}
-	solution = factor.solve(right);
+	solution = system.solve(right);
 	return true;
 }
 

@@ -2,9 +2,7 @@
 #pragma once
 
 #include "BlockProblem.hpp"
-
-#include <Eigen/Dense>
-#include <Eigen/SparseLU>
+#include "SquareSystem.hpp"
 
 namespace contactdynamics {
 
@@ -40,10 +38,7 @@ private:
 	std::vector<int> position, positionBefore;	   // of a contact in the system, -1: open
 	Eigen::VectorXd right, solution;
 
-	using Sparse = Eigen::SparseMatrix<double>;
-	Sparse matrix;
-	Eigen::SparseLU<Sparse, Eigen::AMDOrdering<int>> factor;
-	Eigen::PartialPivLU<Eigen::MatrixXd> denseFactor;
+	SquareSystem system;
 
 	bool factorAndSolve(int size, bool samePattern, const std::vector<Eigen::Triplet<double>>& entries);
 };
