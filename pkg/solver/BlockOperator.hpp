@@ -9,6 +9,7 @@
 #include "CrushedContacts.hpp"
 #include "OneContact.hpp"
 #include "OneContact2D.hpp"
+#include "ProblemBlocks.hpp"
 
 #include <algorithm>
 #include <type_traits>
@@ -257,10 +258,7 @@ private:
 	/// Its symmetric part: the visit works with the increments of u, so that a symmetric local operator leaves the solution of the whole as it is.
 	Block diagonalBlock(std::size_t i) const
 	{
-		Block W = Block::Zero();
-		for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k)
-			if (std::size_t(problem.column[k]) == i)
-				W += Eigen::Map<const Eigen::Matrix<double, D, D, Eigen::RowMajor>>(&problem.blocks[D * D * std::size_t(k)]);
+		const Block W = diagonalBlockOf<D>(problem, i);
 		return 0.5 * (W + W.transpose());
 	}
 

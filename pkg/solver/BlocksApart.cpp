@@ -4,6 +4,7 @@
 #include "BlockResidual.hpp"
 #include "OneContact.hpp"
 #include "OneContact2D.hpp"
+#include "ProblemBlocks.hpp"
 
 #include <algorithm>
 #include <type_traits>
@@ -26,7 +27,7 @@ template <int D> bool solveApart(BlockProblem& problem, const SolverOptions& opt
 	const auto at = [](std::vector<double>& values, std::size_t i) { return Eigen::Map<Vector>(&values[D * i]); };
 	for (std::size_t i = 0; i < count; ++i) {
 		// One block in each row, and every row has its diagonal block.
-		const Block W = Eigen::Map<const Eigen::Matrix<double, D, D, Eigen::RowMajor>>(&problem.blocks[D * D * i]);
+		const Block W = blockOf<D>(problem, int(i));
 		const Block symmetric = 0.5 * (W + W.transpose());
 		const Vector q = at(problem.q, i);
 		const Local local(symmetric);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "CentralPathSystem.hpp"
 
+#include "ProblemBlocks.hpp"
 #include "SmoothedContact.hpp"
 
 #include <algorithm>
@@ -23,11 +24,8 @@ template <int D> CentralPathSystem<D>::CentralPathSystem(const BlockProblem& pro
 template <int D> void CentralPathSystem<D>::describe(const BlockProblem& problem)
 {
 	const std::size_t count = problem.contacts();
-	const auto given = [&](int k) { return Eigen::Map<const Eigen::Matrix<double, D, D, Eigen::RowMajor>>(&problem.blocks[D * D * std::size_t(k)]); };
 	for (std::size_t i = 0; i < count; ++i) {
-		Block own = Block::Zero();
-		for (int k = rowStart[i]; k < rowStart[i + 1]; ++k)
-			if (std::size_t(column[k]) == i) own += given(k);
+		const Block own = diagonalBlockOf<D>(problem, i);
 		const double mu = problem.friction[i];
 		Vector factors = Vector::Ones();
 		const bool rough = mu > leastFriction;
@@ -38,7 +36,7 @@ template <int D> void CentralPathSystem<D>::describe(const BlockProblem& problem
 	}
 	for (std::size_t i = 0; i < count; ++i)
 		for (int k = rowStart[i]; k < rowStart[i + 1]; ++k)
-			W.push_back(scale[i].asDiagonal() * Block(given(k)) * scale[std::size_t(column[k])].asDiagonal());
+			W.push_back(scale[i].asDiagonal() * Block(blockOf<D>(problem, k)) * scale[std::size_t(column[k])].asDiagonal());
 	q.resize(unknowns());
 	for (std::size_t i = 0; i < count; ++i) q.segment<D>(D * i) = scale[i].cwiseProduct(Eigen::Map<const Vector>(&problem.q[D * i]));
 	size = q.stableNorm() / std::sqrt(double(count));

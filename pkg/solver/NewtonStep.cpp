@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "NewtonStep.hpp"
 
+#include "ProblemBlocks.hpp"
+
 namespace contactdynamics {
 
 template <int D> NewtonStep<D>::NewtonStep(const BlockProblem& given) : problem(given)
 {
 	for (std::size_t i = 0; i < problem.contacts(); ++i) {
-		Block diagonal = Block::Zero();
-		for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k)
-			if (std::size_t(problem.column[k]) == i)
-				diagonal += Eigen::Map<const Eigen::Matrix<double, D, D, Eigen::RowMajor>>(&problem.blocks[D * D * std::size_t(k)]);
+		const Block diagonal = diagonalBlockOf<D>(problem, i);
 		const double tangential = diagonal.diagonal().template tail<D - 1>().sum() / (D - 1);
 		normalScale.push_back(diagonal(0, 0) > 0 ? 1 / diagonal(0, 0) : 0);
 		tangentScale.push_back(tangential > 0 ? 1 / tangential : 0);
@@ -56,7 +55,7 @@ template <int D> bool NewtonStep<D>::compute(const std::vector<Vector>& r, const
 		}
 		for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k) {
 			const std::size_t j = problem.column[k];
-			const Block W = Eigen::Map<const Eigen::Matrix<double, D, D, Eigen::RowMajor>>(&problem.blocks[D * D * std::size_t(k)]);
+			const Block W = blockOf<D>(problem, k);
 			const Block scaled = A * W;
 			if (position[j] < 0) {
 				value -= scaled * r[j]; // it opens: its impulse goes

@@ -14,7 +14,7 @@ bool SquareSystem::factorise()
 {
 	if (dense()) {
 		denseFactor.compute(Eigen::MatrixXd(matrix));
-		sign = denseFactor.permutationP().determinant();
+		sign = double(denseFactor.permutationP().determinant());
 		const Eigen::VectorXd pivots = denseFactor.matrixLU().diagonal();
 		for (const double pivot : pivots) sign *= pivot < 0 ? -1 : 1;
 		return pivots.allFinite() && (pivots.array() != 0).all();
