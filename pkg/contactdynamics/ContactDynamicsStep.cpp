@@ -97,6 +97,7 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 	motions.resize(idOfIndex.size());
 	problem.bodies.resize(idOfIndex.size());
 	problem.meanField.reset();
+	const Matrix3r edges = scene.isPeriodic ? scene.cell->hSize : Matrix3r(Matrix3r::Identity()), toCell = edges.inverse();
 
 	parallelLoop(static_cast<long>(idOfIndex.size()), [&](long index) {
 		const int id = idOfIndex[index];
@@ -112,7 +113,12 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 		}
 		const auto [motion, mobility] = predictFreeMotion(scene, plan, body, force, torque);
 		motions[index] = motion;
-		problem.bodies[index] = {motion.velocity, motion.angularVelocity, mobility.inverseMass, mobility.inverseInertia};
+		Vector3r centre = body.state->pos;
+		if (scene.isPeriodic) { // neighbours drift many cells apart, as YADE counts positions: back into the first one
+			const Vector3r cells = (toCell * centre).array().floor();
+			centre -= edges * cells;
+		}
+		problem.bodies[index] = {motion.velocity, motion.angularVelocity, mobility.inverseMass, mobility.inverseInertia, centre};
 	});
 
 	parallelLoop(count, [&](long id) {

@@ -97,16 +97,21 @@ void Crew::stage(std::size_t firstJob, std::size_t count)
 		asleep = asleep || desks[k].asleep.load();
 	}
 	if (asleep) ring();
+	const std::size_t doneBefore = tallies[0].done.load(std::memory_order_relaxed);
+	const double begun = secondsNow();
 	work(0);
-	constexpr int patience = 20000; // pauses, some tenths of a millisecond: longer than the longest job
-	int spins = 0;
-	for (; !allDone(); ++spins) {
-		if (spins < patience)
-			pauseBriefly();
-		else
+	const double ready = secondsNow();
+	const auto own = double(std::max<std::size_t>(tallies[0].done.load(std::memory_order_relaxed) - doneBefore, 1));
+	const double patience = 3e-4 + 2 * (ready - begun) / own; // a mate may have begun a job a moment ago
+	bool late = false;
+	while (!allDone()) {
+		late = late || secondsNow() > ready + patience;
+		if (late)
 			std::this_thread::yield();
+		else
+			pauseBriefly();
 	}
-	if (spins > patience)
+	if (late)
 		takeOffence();
 	else if (penalty > leastPenalty)
 		forgive();

@@ -77,26 +77,24 @@ void GrainOperator::freeVelocities()
 	});
 }
 
-/// Velocities = free velocities + M^-1 H r: no drift of the sweeps is left in them. Colour by colour, so that no two threads meet at a body.
+/// Velocities = free velocities + M^-1 H r: no drift of the sweeps is left in them. Node by node, so that no two threads meet at a body.
 /// The impulses are those of the last visits, inside their cones but for round-off.
 void GrainOperator::rebuildVelocities()
 {
 	freeVelocities();
 	if (hasField()) chunkFields.assign(chunks.size(), FieldPass{});
-	for (const Group& group : groups)
-		share(group.lastChunk - group.firstChunk, [&](std::size_t k) {
-			const std::size_t i = group.firstChunk + k;
-			const Chunk& chunk = chunks[i];
-			FieldPass* field = hasField() ? &chunkFields[i] : nullptr;
-			if (chunk.packs) ballRebuild(state.data(), packs.data() + chunk.firstPack, rollingFrom(chunk.firstPack), chunk.packs, field);
-			for (std::size_t g = chunk.firstGeneral; g < chunk.firstGeneral + chunk.generals; ++g) {
-				const Contact& c = problem->contacts[generals[g].id];
-				const Vector3 impulse = generals[g].frame.transpose() * generals[g].impulse;
-				addImpulse(c, impulse);
-				if (generals[g].rolling) addTorque(c, generals[g].rolling->torque);
-				if (field) Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(field->moment) += impulse * (c.arm1 - c.arm2).transpose();
-			}
-		});
+	overChunks([&](std::size_t i) {
+		const Chunk& chunk = chunks[i];
+		FieldPass* field = hasField() ? &chunkFields[i] : nullptr;
+		if (chunk.packs) ballRebuild(state.data(), packs.data() + chunk.firstPack, rollingFrom(chunk.firstPack), chunk.packs, field);
+		for (std::size_t g = chunk.firstGeneral; g < chunk.firstGeneral + chunk.generals; ++g) {
+			const Contact& c = problem->contacts[generals[g].id];
+			const Vector3 impulse = generals[g].frame.transpose() * generals[g].impulse;
+			addImpulse(c, impulse);
+			if (generals[g].rolling) addTorque(c, generals[g].rolling->torque);
+			if (field) Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(field->moment) += impulse * (c.arm1 - c.arm2).transpose();
+		}
+	});
 	if (!hasField()) return;
 	moment.setZero();
 	addFieldPasses();

@@ -4,19 +4,13 @@
 
 namespace contactdynamics {
 
-namespace {
-
-constexpr std::size_t packsPerChunk = 16, generalsPerChunk = 32; // a microsecond: what threads may wait for each other at the end of a colour
-
-} // namespace
-
 void GrainOperator::putSleeper(std::int32_t id)
 {
 	const Contact& c = problem->contacts[id];
 	impulses[id].setZero();
 	if (RollingContact* rolling = rollingAt(id)) rolling->stop();
 	sleepers.push_back({c.normal, c.ball ? c.gapVelocity + c.imageVelocity.dot(c.normal) : c.gapVelocity, c.normal.dot(c.arm1 - c.arm2),
-						seat[c.body1], seat[c.body2], id, !c.ball});
+						tree.seat[c.body1], tree.seat[c.body2], id, !c.ball});
 }
 
 BallPack GrainOperator::emptyPack() const
@@ -27,12 +21,6 @@ BallPack GrainOperator::emptyPack() const
 		empty.body1[lane] = empty.body2[lane] = ~std::int32_t(problem->bodies.size());
 	}
 	return empty;
-}
-
-void GrainOperator::resizePacks(std::size_t count)
-{
-	packs.resize(count, emptyPack());
-	if (!rollingContacts.empty()) rollingPacks.resize(count, RollingPack{});
 }
 
 void GrainOperator::putBall(std::size_t at, int lane, std::int32_t id)
@@ -82,58 +70,6 @@ void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id)
 	g.rolling = rollingAt(id);
 	g.increment.setZero();
 	g.direction.setZero();
-}
-
-void GrainOperator::layOut(const std::vector<std::int32_t>& ids)
-{
-	if (ids.empty()) return;
-	if (blockwise)
-		layOutByBlock(ids);
-	else
-		layOutByColour(ids);
-	awake += ids.size();
-}
-
-/// Appends contacts as new colours: counting sort by colour, balls in packs of four, general contacts one by one.
-void GrainOperator::layOutByColour(const std::vector<std::int32_t>& ids)
-{
-	const auto& contacts = problem->contacts;
-	colouring.reset(problem->bodies.size());
-	constexpr int kinds = 2 * Colouring::colours; // balls and general contacts of each colour
-	std::size_t count[kinds + 1] = {};
-	colourOf.resize(ids.size());
-	for (std::size_t i = 0; i < ids.size(); ++i) {
-		const Contact& c = contacts[ids[i]];
-		colourOf[i] = 2 * colouring.assign(indexOf(c.body1), indexOf(c.body2)) + (isBall(c) ? 0 : 1);
-		++count[colourOf[i] + 1];
-	}
-	for (int k = 0; k < kinds; ++k) count[k + 1] += count[k];
-	order.resize(ids.size());
-	{
-		std::size_t next[kinds];
-		std::copy(count, count + kinds, next);
-		for (std::size_t i = 0; i < ids.size(); ++i) order[next[colourOf[i]]++] = ids[i];
-	}
-	for (int colour = 0; colour <= Colouring::overflow; ++colour) {
-		const std::size_t balls = count[2 * colour], first = count[2 * colour + 1], last = count[2 * colour + 2];
-		if (balls == last) continue;
-		const std::size_t lanes = Colouring::lanes(colour);
-		const std::size_t firstPack = packs.size(), firstGeneral = generals.size(), firstChunk = chunks.size();
-		resizePacks(firstPack + (first - balls + lanes - 1) / lanes);
-		inRuns(first - balls, [&](std::size_t i) { putBall(firstPack + i / lanes, int(i % lanes), order[balls + i]); });
-		generals.resize(firstGeneral + last - first);
-		inRuns(last - first, [&](std::size_t i) { putGeneral(generals[firstGeneral + i], order[first + i]); });
-		const std::size_t packCount = packs.size() - firstPack, generalCount = generals.size() - firstGeneral;
-		if (colour == Colouring::overflow)
-			chunks.push_back({firstPack, packCount, firstGeneral, generalCount, 0, 0});
-		else {
-			for (std::size_t k = 0; k < packCount; k += packsPerChunk)
-				chunks.push_back({firstPack + k, std::min(packsPerChunk, packCount - k), 0, 0, 0, 0});
-			for (std::size_t k = 0; k < generalCount; k += generalsPerChunk)
-				chunks.push_back({0, 0, firstGeneral + k, std::min(generalsPerChunk, generalCount - k), 0, 0});
-		}
-		groups.push_back({firstChunk, chunks.size()});
-	}
 }
 
 /// Lays the awake contacts out anew, without those that carry nothing and separate by more than a tenth of the typical change of velocity.
@@ -195,7 +131,8 @@ void GrainOperator::letIdleSleep()
 	packs.clear();
 	rollingPacks.clear();
 	generals.clear();
-	groups.clear();
+	passes.clear();
+	jobs.clear();
 	chunks.clear();
 	awake = 0;
 	layOut(selected);

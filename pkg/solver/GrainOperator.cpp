@@ -75,17 +75,17 @@ void GrainOperator::beginAtImpulses()
 
 	// Awake at first: what carries an impulse, closes, or could be closed by a change of velocity as large as the fastest approach.
 	double fastest = 0;
-	const auto approach = [&](std::size_t i) { return normalVelocity(contacts[i]) + contacts[i].gapVelocity; };
-	sums.assign((contacts.size() + perRun - 1) / perRun, Sums{});
-	inRuns(contacts.size(), [&](std::size_t i) { sums[i / perRun].approach = std::max(sums[i / perRun].approach, -approach(i)); });
-	for (const Sums& run : sums) fastest = std::max(fastest, run.approach);
+	closing.resize(contacts.size());
+	inRuns(contacts.size(), [&](std::size_t i) { closing[i] = -normalVelocity(contacts[i]) - contacts[i].gapVelocity; });
+	for (const double speed : closing) fastest = std::max(fastest, speed);
 	mustWake.resize(contacts.size());
-	inRuns(contacts.size(), [&](std::size_t i) { mustWake[i] = approach(i) <= fastest || !impulses[i].isZero(0); });
+	inRuns(contacts.size(), [&](std::size_t i) { mustWake[i] = -closing[i] <= fastest || !impulses[i].isZero(0); });
 	const bool small = contacts.size() <= 64;
 	packs.clear();
 	rollingPacks.clear();
 	generals.clear();
-	groups.clear();
+	passes.clear();
+	jobs.clear();
 	chunks.clear();
 	sleepers.clear();
 	selected.clear();
@@ -155,14 +155,7 @@ SweepNorms GrainOperator::sweep(Extrapolation by)
 {
 	chunkNorms.resize(chunks.size());
 	if (hasField()) startFieldPass(by);
-	const std::size_t bodies = problem->bodies.size();
-	if (accelerated && !blockwise)
-		share((bodies + perRun - 1) / perRun, [&](std::size_t k) { extrapolate(by, k * perRun, std::min(bodies, (k + 1) * perRun)); });
-	for (const Group& group : groups)
-		share(group.lastChunk - group.firstChunk, [&](std::size_t k) {
-			const std::size_t i = group.firstChunk + k;
-			visit(chunks[i], chunkNorms[i], by, hasField() ? &chunkFields[i] : nullptr);
-		});
+	overChunks([&](std::size_t i) { visit(chunks[i], chunkNorms[i], by, hasField() ? &chunkFields[i] : nullptr); });
 	if (hasField()) addFieldPasses();
 	++sweeps;
 	lastNorms = {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "BodyBlocks.hpp"
+#include "BodyTree.hpp"
 #include "Colouring.hpp"
 #include "Crew.hpp"
 #include "CrushedContacts.hpp"
@@ -10,6 +10,8 @@
 #include "SolveReport.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <vector>
 
 namespace contactdynamics {
@@ -17,17 +19,15 @@ namespace contactdynamics {
 /// W = H^T M^-1 H of a collection of rigid bodies, matrix-free, as guardedLoop() uses it, with the work space of a solve.
 ///
 /// A candidate far from closing costs next to nothing: it sleeps, that is, no sweep visits it; mend() looks at all sleepers and wakes those that
-/// close. Awake contacts are laid out by colour in packs of four; woken ones are appended as colours of their own, and now and then the layout is
-/// made anew without the contacts that turned out idle. A problem beyond the caches is laid out block by block of neighbouring bodies, and each block
-/// by colour. All of it depends on the problem alone.
+/// close. Awake contacts are laid out node by node of the tree of bodies, each node by colour in packs of four; woken ones are appended as chunks of
+/// their own, and now and then the layout is made anew without the contacts that turned out idle. All of it depends on the problem alone.
 class GrainOperator {
 public:
 	/// Takes the problem over until finish(): free velocities and start impulses, brought inside their cones.
 	/// @param crew  does the work from a few thousand contacts on; must outlive the use of the operator
 	void start(GrainProblem& problem, bool accelerated, Crew& crew);
-	static bool isWorthThreads(std::size_t contacts) { return contacts >= 3000; } ///< below, handing out the colours costs more than it brings
-	static constexpr std::size_t blockwiseFrom = 40000; ///< contacts from which on a sweep goes block by block: it no longer fits the caches
-	static constexpr int firstCheck = 0;				///< a certificate costs a sweep: wait until the increments promise convergence
+	static bool isWorthThreads(std::size_t contacts) { return contacts > contactsPerRegion; } ///< below, there is but one region
+	static constexpr int firstCheck = 0; ///< a certificate costs a sweep: wait until the increments promise convergence
 	static constexpr bool startsPlainly = true;
 	bool anyAwake() const { return awake > 0; }
 	std::size_t awakeContacts() const { return awake; } ///< those that a sweep visits
@@ -47,14 +47,24 @@ public:
 	void finish(SolveReport& report);
 
 private:
+	/// At most: 15 microseconds of work, some ten times as much as it costs two cores to hand over what they share.
+	static constexpr std::size_t contactsPerRegion = 1500;
+	static constexpr int mostLevels = 6;	   // of the tree of bodies above its regions: 64 regions are enough for any number of threads
 	static constexpr std::size_t perRun = 512; // contacts or bodies that one job of the crew looks at
 
-	struct Chunk { // a run of contacts of one colour, or of one block, visited by one thread, summed as one term
+	struct Chunk { // contacts of one node, summed as one term
 		std::size_t firstPack, packs, firstGeneral, generals;
-		std::size_t firstSeat, lastSeat; // of the block: bodies to be moved to the extrapolated point before the contacts are visited
+		std::size_t firstSeat, lastSeat; // of a block: bodies to be moved to the extrapolated point before the contacts are visited
 	};
-	struct Group { // chunks that no body links
+	struct Pass { // one layout: all awake contacts, or some that woke later
+		std::size_t firstChunk, lastChunk, firstJob;
+		bool isShared; // there is a range of chunks for each job of the tree
+	};
+	struct Range {
 		std::size_t firstChunk, lastChunk;
+	};
+	struct alignas(64) Arrivals { // at a joint: the second one goes on; written by two threads
+		std::atomic<unsigned> count{0};
 	};
 	struct Sleeper {
 		Vector3 normal;
@@ -103,24 +113,25 @@ private:
 	std::vector<Vector3> keptTorques;
 	std::vector<std::int32_t> rollingOf; // by contact, -1: none; empty where no contact has rolling friction
 	std::vector<std::uint8_t> mustWake;
+	std::vector<double> closing; // of each contact, at the start [m/s]
 	std::vector<Sums> sums;
 	std::vector<int> active; // contacts that carry an impulse, by run
 
-	bool blockwise = false;
-	BodyBlocks blocks;
-	std::vector<std::int32_t> seat; // of each body: place of its velocities
+	BodyTree tree;
 	Colouring colouring;
 	std::vector<BallPack> packs;
 	std::vector<RollingPack> rollingPacks; // parallel to packs; empty where no contact has rolling friction
 	std::vector<Course> courses;
 	std::vector<GeneralContact> generals, oldGenerals;
-	std::vector<Group> groups;
+	std::vector<Pass> passes;
+	std::vector<Range> jobs; // of each shared pass those of the tree
+	std::array<Arrivals, 1 << mostLevels> arrivals;
 	std::vector<Chunk> chunks;
 	std::vector<SweepNorms> chunkNorms;
 	std::vector<Sleeper> sleepers;
 	std::vector<std::int32_t> place; // of a contact in the old layout
-	std::vector<std::int32_t> selected, colourOf, order, byBlock, firstOfBlock;
-	std::vector<Chunk> blockChunks;
+	std::vector<std::int32_t> selected, colourOf, order, byNode, firstOfNode;
+	std::vector<Chunk> nodeChunks;
 
 	static bool isCompliant(const Contact& c) { return c.normalCompliance != 0 || c.tangentialCompliance != 0; }
 	bool isBall(const Contact& c) const { return c.ball && c.imageVelocity.isZero(0) && !isCompliant(c); }
@@ -140,9 +151,37 @@ private:
 			for (std::size_t i = k * perRun; i < std::min(count, (k + 1) * perRun); ++i) job(i);
 		});
 	}
-	std::int32_t indexOf(std::int32_t body) const { return movable[body] ? seat[body] : ~seat[body]; }
-	BodyState& stateOf(std::int32_t body) { return state[seat[body]]; }
-	const BodyState& stateOf(std::int32_t body) const { return state[seat[body]]; }
+	/// Calls visit(job) for all jobs of the tree, a joint after its parts and a stage after all before.
+	template <class Visit> void overJobs(const Visit& visit)
+	{
+		share(tree.regions(), [&](std::size_t region) {
+			visit(region);
+			for (int level = 1; level <= tree.undivided(); ++level) {
+				const std::size_t k = region >> level;
+				const bool isSecond = arrivals[(tree.regions() >> level) + k].count.fetch_add(1, std::memory_order_acq_rel) % 2;
+				if (!isSecond) break;
+				visit(tree.joint(level, k));
+			}
+		});
+		for (std::size_t first = tree.firstPair(); first < tree.jobs(); first += tree.pairsPerStage())
+			share(tree.pairsPerStage(), [&](std::size_t k) { visit(first + k); });
+	}
+	/// Calls visit(chunk) for all chunks in the order of a sweep.
+	template <class Visit> void overChunks(const Visit& visit)
+	{
+		for (const Pass& pass : passes) {
+			const auto visitAll = [&](std::size_t first, std::size_t last) {
+				for (std::size_t i = first; i < last; ++i) visit(i);
+			};
+			if (pass.isShared)
+				overJobs([&](std::size_t job) { visitAll(jobs[pass.firstJob + job].firstChunk, jobs[pass.firstJob + job].lastChunk); });
+			else
+				visitAll(pass.firstChunk, pass.lastChunk);
+		}
+	}
+	std::int32_t indexOf(std::int32_t body) const { return movable[body] ? tree.seat[body] : ~tree.seat[body]; }
+	BodyState& stateOf(std::int32_t body) { return state[tree.seat[body]]; }
+	const BodyState& stateOf(std::int32_t body) const { return state[tree.seat[body]]; }
 	double normalVelocity(const Sleeper& s) const;
 	double normalVelocity(const Contact& c) const;
 	void addImpulse(const Contact& c, const Vector3& impulse);
@@ -154,13 +193,10 @@ private:
 	void takeSeats();
 	void beginAtImpulses();
 	void layOut(const std::vector<std::int32_t>& ids);
-	void layOutByColour(const std::vector<std::int32_t>& ids);
-	void layOutByBlock(const std::vector<std::int32_t>& ids);
-	void colourBlock(std::size_t block);
-	void fillBlock(std::size_t block);
+	void colourNode(std::size_t node);
+	void fillNode(std::size_t node);
 	BallPack emptyPack() const;
 	void putBall(std::size_t at, int lane, std::int32_t id);
-	void resizePacks(std::size_t count);
 	void putGeneral(GeneralContact& g, std::int32_t id);
 	void putSleeper(std::int32_t id);
 	void letIdleSleep();

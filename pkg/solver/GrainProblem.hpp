@@ -19,6 +19,8 @@ struct Body {
 	Vector3 angularVelocity; ///< likewise, global axes [rad/s]
 	Vector3 inverseMass;	 ///< per global axis, 0 where the degree of freedom is blocked [1/kg]
 	Matrix3 inverseInertia;	 ///< global axes, symmetric, rows and columns 0 where blocked [1/(kg m2)]
+	/// Of mass, in a periodic cell that of any image: tells who is whose neighbour, for the order of the sweeps and for nothing else [m].
+	Vector3 centre = Vector3::Zero();
 };
 
 enum class ContactStatus : std::int8_t { none, sticking, sliding };

@@ -57,7 +57,10 @@ public:
 	{
 		const double h = timeStep();
 		problem.bodies = bodies;
-		for (std::size_t i = 1; i < bodies.size(); ++i) problem.bodies[i].velocity[2] -= gravity * h;
+		for (std::size_t i = 1; i < bodies.size(); ++i) {
+			problem.bodies[i].velocity[2] -= gravity * h;
+			problem.bodies[i].centre = grains[i].centre;
+		}
 		findContacts(h);
 		return problem;
 	}

@@ -74,6 +74,7 @@ inline GrainProblem heap(int side, unsigned seed, double friction = 0.3, bool he
 		radius.push_back(r);
 		problem.bodies.push_back(ball(mass, r, 0.2 * Vector3(normal(random), normal(random), normal(random)) - Vector3::UnitZ(),
 									  Vector3(normal(random), normal(random), normal(random))));
+		problem.bodies.back().centre = centre.back();
 		if (general) {
 			Matrix3 stretch = Matrix3::Zero();
 			stretch.diagonal() << 0.3 + uniform(random), 0.3 + uniform(random), 0.3 + uniform(random);

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The tree of bodies by which problems are laid out: the partition, and that nothing but the order of the visits depends on it.
+#include "IndependentResidual.hpp"
+#include "Scenes.hpp"
+#include "pkg/solver/BodyTree.hpp"
+#include "pkg/solver/GrainOperator.hpp"
+#include "pkg/solver/SignoriniCoulombSolver.hpp"
+
+#include <gtest/gtest.h>
+#include <map>
+#include <numeric>
+#include <set>
+
+using namespace contactdynamics;
+
+namespace {
+
+std::vector<std::uint8_t> movableOf(const GrainProblem& problem)
+{
+	std::vector<std::uint8_t> movable;
+	for (const Body& body : problem.bodies) movable.push_back(!body.inverseMass.isZero(0));
+	return movable;
+}
+
+/// Two problems side by side, without a contact between them.
+GrainProblem joined(const GrainProblem& one, const GrainProblem& two)
+{
+	GrainProblem both = one;
+	both.bodies.insert(both.bodies.end(), two.bodies.begin(), two.bodies.end());
+	for (Contact c : two.contacts) {
+		c.body1 += std::int32_t(one.bodies.size());
+		c.body2 += std::int32_t(one.bodies.size());
+		both.contacts.push_back(c);
+	}
+	return both;
+}
+
+SolverOptions upTo(double tolerance, int sweeps, int threads = 1)
+{
+	SolverOptions options;
+	options.tolerance = tolerance;
+	options.maxIterations = sweeps;
+	options.threads = threads;
+	return options;
+}
+
+struct Built {
+	GrainProblem problem;
+	std::vector<std::uint8_t> movable;
+	BodyTree tree;
+
+	Built(GrainProblem given, int levels, int depth, int threads = 1) : problem(std::move(given)), movable(movableOf(problem))
+	{
+		Crew crew(threads);
+		crew.resume();
+		tree.build(problem, movable, levels, depth, crew);
+	}
+	/// Bodies that can move and contacts of each job.
+	std::vector<std::set<std::int32_t>> bodiesOfJobs() const
+	{
+		std::vector<std::set<std::int32_t>> bodies(tree.jobs());
+		for (const Contact& c : problem.contacts)
+			for (const std::int32_t body : {c.body1, c.body2})
+				if (movable[body]) bodies[jobOf(c)].insert(body);
+		return bodies;
+	}
+	std::size_t jobOf(const Contact& c) const
+	{
+		std::size_t job = 0;
+		while (tree.firstNode(job + 1) <= tree.of(c)) ++job;
+		return job;
+	}
+	std::int32_t regionOf(std::int32_t body) const { return tree.block[body] / std::int32_t(tree.blocks() / tree.regions()); }
+};
+
+void expectApart(const std::vector<std::set<std::int32_t>>& bodies, std::size_t first, std::size_t last, const char* what)
+{
+	std::set<std::int32_t> together;
+	std::size_t count = 0;
+	for (std::size_t job = first; job < last; ++job) {
+		together.insert(bodies[job].begin(), bodies[job].end());
+		count += bodies[job].size();
+	}
+	EXPECT_EQ(together.size(), count) << what << ", jobs " << first << " to " << last;
+}
+
+const std::vector<std::pair<int, int>> shapes{{0, 0}, {0, 3}, {1, 1}, {2, 4}, {3, 3}, {4, 4}, {5, 6}, {6, 6}, {6, 11}}; // levels, depth
+
+} // namespace
+
+TEST(BodyTree, EachMovingBodyHasOneSeatInOneBlock)
+{
+	for (const auto& [levels, depth] : shapes) {
+		const Built built(scenes::heap(8, 3), levels, depth);
+		const BodyTree& tree = built.tree;
+		ASSERT_EQ(tree.regions(), std::size_t(1) << levels);
+		ASSERT_EQ(tree.blocks(), std::size_t(1) << depth);
+		std::set<std::int32_t> seats;
+		for (std::size_t i = 0; i < built.movable.size(); ++i) {
+			seats.insert(tree.seat[i]);
+			ASSERT_EQ(tree.block[i] >= 0, bool(built.movable[i]));
+			if (!built.movable[i]) continue;
+			EXPECT_GE(tree.seat[i], tree.firstSeat[tree.block[i]]);
+			EXPECT_LT(tree.seat[i], tree.firstSeat[tree.block[i] + 1]);
+		}
+		EXPECT_EQ(seats.size(), built.movable.size());
+		EXPECT_EQ(*seats.begin(), 0);
+		EXPECT_EQ(*seats.rbegin(), std::int32_t(built.movable.size()) - 1);
+	}
+}
+
+TEST(BodyTree, PartsOfAHalvingWeighTheSame)
+{
+	// A body weighs one more than its contacts; a cut is off by no more than half of the body next to it, which the halvings below halve again.
+	for (const auto& [levels, depth] : shapes) {
+		const Built built(scenes::heap(12, 3), levels, depth);
+		std::vector<double> weight(built.movable.size(), 1), ofBlock(built.tree.blocks());
+		for (const Contact& c : built.problem.contacts) {
+			++weight[c.body1];
+			++weight[c.body2];
+		}
+		weight[0] = 0; // the walls
+		const double heaviest = *std::max_element(weight.begin(), weight.end());
+		for (std::size_t i = 0; i < weight.size(); ++i)
+			if (built.movable[i]) ofBlock[built.tree.block[i]] += weight[i];
+		const double mean = std::accumulate(weight.begin(), weight.end(), 0.0) / double(ofBlock.size());
+		for (const double one : ofBlock) EXPECT_NEAR(one, mean, 2 * heaviest) << levels << " of " << depth;
+	}
+}
+
+TEST(BodyTree, ContactsGoWhereTheirBodiesHaveBeenMetBefore)
+{
+	for (const auto& [levels, depth] : shapes) {
+		const Built built(scenes::heap(10, 5), levels, depth);
+		const BodyTree& tree = built.tree;
+		for (const Contact& c : built.problem.contacts) {
+			const std::size_t node = tree.of(c);
+			ASSERT_LT(node, tree.nodes());
+			const std::int32_t later = std::max(tree.block[c.body1], tree.block[c.body2]);
+			const bool within = c.body1 == 0 || c.body2 == 0 || built.regionOf(c.body1) == built.regionOf(c.body2);
+			if (within)
+				EXPECT_EQ(node, std::size_t(later));
+			else
+				EXPECT_GE(node, tree.blocks());
+		}
+	}
+}
+
+TEST(BodyTree, JobsOfOneStageHaveNoBodyInCommon)
+{
+	for (const auto& [levels, depth] : shapes) {
+		const Built built(scenes::heap(12, 5), levels, depth);
+		const BodyTree& tree = built.tree;
+		const auto bodies = built.bodiesOfJobs();
+		for (int level = 0; level <= tree.undivided(); ++level) expectApart(bodies, tree.joint(level, 0), tree.joint(level + 1, 0), "level");
+		EXPECT_EQ(tree.jobs(), tree.firstPair() + tree.stages() * tree.pairsPerStage());
+		for (std::size_t first = tree.firstPair(); first < tree.jobs(); first += tree.pairsPerStage())
+			expectApart(bodies, first, first + tree.pairsPerStage(), "stage");
+		// A joint meets none but the bodies of its two parts, which nobody else meets before it.
+		for (int level = 1; level <= tree.undivided(); ++level)
+			for (std::size_t job = tree.joint(level, 0); job < tree.joint(level + 1, 0); ++job)
+				for (const std::int32_t body : bodies[job])
+					EXPECT_EQ(built.regionOf(body) >> level, std::int32_t(job - tree.joint(level, 0))) << "level " << level;
+	}
+}
+
+TEST(BodyTree, TheTopmostJointsAreWorkForMany)
+{
+	// Across a cut, most contacts are between parts that lie opposite each other: the fullest stage of a level has at least half of them.
+	const Built built(scenes::heap(14, 5), 6, 6);
+	const BodyTree& tree = built.tree;
+	ASSERT_EQ(tree.pairsPerStage(), 4u);
+	ASSERT_EQ(tree.stages(), 6u); // two of level 5, four of level 6
+	std::vector<std::size_t> contacts(tree.jobs());
+	for (const Contact& c : built.problem.contacts) ++contacts[built.jobOf(c)];
+	const auto inStage = [&](std::size_t stage) {
+		const auto first = contacts.begin() + std::ptrdiff_t(tree.firstPair() + stage * tree.pairsPerStage());
+		return std::vector<std::size_t>(first, first + std::ptrdiff_t(tree.pairsPerStage()));
+	};
+	for (const auto& [first, last] : {std::pair<std::size_t, std::size_t>{0, 2}, {2, 6}}) {
+		std::vector<std::size_t> fullest;
+		std::size_t all = 0, most = 0;
+		for (std::size_t stage = first; stage < last; ++stage) {
+			const auto jobs = inStage(stage);
+			const std::size_t sum = std::accumulate(jobs.begin(), jobs.end(), std::size_t(0));
+			all += sum;
+			if (sum <= most) continue;
+			most = sum;
+			fullest = jobs;
+		}
+		ASSERT_GT(all, 100u);
+		EXPECT_GE(2 * most, all);
+		EXPECT_LE(2 * *std::max_element(fullest.begin(), fullest.end()), most); // none of the four does more than half
+	}
+}
+
+TEST(BodyTree, BlocksAreCompact)
+{
+	// 64 blocks of 43 bodies of a simple cubic lattice: a cube has three contacts a body, of which a share of 1 / 3.5 lies across its faces. Rods of
+	// one body across would have two thirds there, bodies picked at random nearly all.
+	const Built built(scenes::heap(14, 2), 6, 6);
+	std::size_t across = 0, links = 0;
+	for (const Contact& c : built.problem.contacts) {
+		if (c.body1 == 0 || c.body2 == 0) continue;
+		++links;
+		across += built.tree.block[c.body1] != built.tree.block[c.body2];
+	}
+	EXPECT_LT(double(across), 0.4 * double(links));
+}
+
+TEST(BodyTree, AnyCentresGiveAPartition)
+{
+	// None, all on a line, half of them in one place, too far apart for their difference to be a number.
+	for (int kind = 0; kind < 4; ++kind) {
+		GrainProblem problem = scenes::heap(8, 3);
+		for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
+			Vector3& centre = problem.bodies[i].centre;
+			if (kind == 0) centre.setZero();
+			if (kind == 1) centre = Vector3(0, 3e-310 * double(i % 7), 0);
+			if (kind == 2 && i % 2) centre.setOnes();
+			if (kind == 3 && i % 2) centre.setConstant(i % 3 ? 1.7e308 : -1.7e308);
+		}
+		const Built built(problem, 4, 5);
+		std::vector<int> bodies(built.tree.blocks());
+		for (const std::int32_t block : built.tree.block)
+			if (block >= 0) ++bodies[block];
+		EXPECT_GT(*std::min_element(bodies.begin(), bodies.end()), 0) << kind;
+	}
+}
+
+TEST(BodyTree, SameForAnyNumberOfThreadsAndAnyOrderInMemory)
+{
+	const GrainProblem problem = scenes::heap(12, 5);
+	const Built one(problem, 4, 6);
+	const Built three(problem, 4, 6, 3);
+	EXPECT_EQ(one.tree.seat, three.tree.seat);
+	EXPECT_EQ(one.tree.block, three.tree.block);
+	GrainProblem turned = problem; // all bodies, and with them the items, in the opposite order
+	const auto last = std::int32_t(problem.bodies.size()) - 1;
+	std::reverse(turned.bodies.begin(), turned.bodies.end());
+	for (Contact& c : turned.contacts) {
+		c.body1 = last - c.body1;
+		c.body2 = last - c.body2;
+	}
+	const Built other(turned, 4, 6);
+	for (std::int32_t i = 0; i <= last; ++i) ASSERT_EQ(one.tree.block[i], other.tree.block[last - i]) << i;
+}
+
+TEST(BodyTree, EveryContactOfALargeProblemIsVisited)
+{
+	// Pairs that meet head-on, far from each other: a single visit stops each with its own closed form, J = 2 m v / 2 for the pair number v.
+	GrainProblem problem;
+	const int pairs = 260000; // several blocks in a region
+	for (int i = 0; i < pairs; ++i) {
+		problem.bodies.push_back(scenes::ball(1, 1, {double(1 + i), 0, 0}));
+		problem.bodies.push_back(scenes::ball(1, 1, {-double(1 + i), 0, 0}));
+		for (int k = 0; k < 2; ++k) problem.bodies[std::size_t(2 * i + k)].centre = Vector3(k, i % 500, i / 500);
+		problem.contacts.push_back(scenes::touch(2 * i, 1, 2 * i + 1, 1, Vector3::UnitX(), 0.3));
+	}
+	const SolveReport report = SignoriniCoulombSolver().solve(problem, upTo(1e-12, 10, 2));
+	EXPECT_EQ(report.status, SolveStatus::converged);
+	EXPECT_LE(report.iterations, 2); // the first one solves, the second sees that nothing changes
+	for (int i = 0; i < pairs; ++i) ASSERT_NEAR(problem.contacts[i].impulse[0], 1 + i, 1e-14 * (1 + i)) << i;
+}
+
+TEST(BodyTree, BodiesThatCannotMoveNeedNoTree)
+{
+	GrainProblem problem;
+	problem.bodies = {scenes::wall(), scenes::wall()};
+	problem.bodies[1].velocity = {-1, 0, 0};
+	problem.contacts.assign(10000, scenes::touch(0, 0, 1, 0, Vector3::UnitX(), 0.3));
+	const SolveReport report = SignoriniCoulombSolver().solve(problem, upTo(1e-8, 10));
+	EXPECT_EQ(report.status, SolveStatus::converged);
+	EXPECT_EQ(report.activeContacts, 0);
+	EXPECT_EQ(report.maxApproachSpeed, 1);
+}
+
+TEST(BodyTree, AProblemHasTheSolutionOfItsParts)
+{
+	// The parts lie in one another, so the tree of both has nothing to do with those of each. Velocities agree as far as the tolerance determines
+	// them.
+	for (const double friction : {0.0, 0.3}) {
+		GrainProblem one = scenes::heap(20, 3, friction), two = scenes::heap(20, 4, friction);
+		GrainProblem both = joined(one, two);
+		const GrainProblem free = both;
+		const double tolerance = 1e-6;
+		SignoriniCoulombSolver solver;
+		ASSERT_EQ(solver.solve(one, upTo(tolerance, 5000)).status, SolveStatus::converged);
+		ASSERT_EQ(solver.solve(two, upTo(tolerance, 5000)).status, SolveStatus::converged);
+		const SolveReport report = solver.solve(both, upTo(tolerance, 5000, 2));
+		ASSERT_EQ(report.status, SolveStatus::converged);
+		EXPECT_NEAR(report.residual, independent::residual(free, both), 1e-6 * report.residual);
+		// Both residuals together are no larger than the larger one of the parts: sums over the contacts.
+		const independent::Agreement found = independent::agreement(free, both, joined(one, two), tolerance);
+		EXPECT_LE(found.energy, found.bound);
+		EXPECT_LE(found.bound, 1e-4 * scenes::kineticEnergy(both)); // or it would say little
+	}
+}
+
+TEST(BodyTree, SameBitsForAnyNumberOfThreads)
+{
+	// Two regions, joints, divided joints, and more of them; contacts that wake later are laid out as passes of their own.
+	for (const int side : {9, 14, 19, 26})
+		for (const bool general : {false, true}) {
+			GrainProblem given = scenes::heap(side, 11, 0.3, true, general);
+			ASSERT_TRUE(GrainOperator::isWorthThreads(given.contacts.size()));
+			if (!general) {
+				given.meanField.emplace();
+				given.meanField->inverseMass.setConstant(1e-4);
+			}
+			const SolverOptions options = upTo(1e-12, general ? 10 : 30);
+			GrainProblem one = given;
+			SignoriniCoulombSolver solver;
+			const SolveReport first = solver.solve(one, options);
+			for (const int threads : {2, 3, 8}) {
+				GrainProblem more = given;
+				SolverOptions together = options;
+				together.threads = threads;
+				const SolveReport report = solver.solve(more, together);
+				EXPECT_EQ(report.residual, first.residual) << threads << " threads";
+				for (std::size_t i = 0; i < given.contacts.size(); ++i)
+					ASSERT_EQ(more.contacts[i].impulse, one.contacts[i].impulse) << threads << " threads";
+				for (std::size_t i = 0; i < given.bodies.size(); ++i)
+					ASSERT_EQ(more.bodies[i].velocity, one.bodies[i].velocity) << threads << " threads";
+			}
+		}
+}
+
+TEST(BodyTree, ALargeProblemWithAMeanFieldEndsConsistent)
+{
+	GrainProblem problem = scenes::heap(25, 11, 0.3, true);
+	problem.meanField.emplace();
+	problem.meanField->inverseMass.setConstant(1e-6);
+	const GrainProblem free = problem;
+	const SolveReport report = SignoriniCoulombSolver().solve(problem, upTo(1e-4, 3000, 2));
+	ASSERT_EQ(report.status, SolveStatus::converged) << report.residual;
+	Matrix3 moment = Matrix3::Zero();
+	for (const Contact& c : problem.contacts) moment += c.impulse * (c.arm1 - c.arm2).transpose();
+	const Matrix3 expected = free.meanField->gradientWith(moment);
+	ASSERT_GT(expected.norm(), 1e-3);
+	// Round-off of a sum of 40,000 terms.
+	EXPECT_LE((problem.meanField->gradient - expected).norm(), 1e-10 * expected.norm());
+}
