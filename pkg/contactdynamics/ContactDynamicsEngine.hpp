@@ -56,7 +56,7 @@ public:
 		((string,onNonConvergence,"warn",Attr::triggerPostLoad,"What to do when :yref:`maxIterations<ContactDynamicsEngine.maxIterations>` sweeps leave the residual above the tolerance: ``warn`` (default) says so once on standard error and goes on with the impulses reached (admissible: inside the cone), ``raise`` stops the step with a RuntimeError before the bodies move, ``ignore`` goes on. "
 			":yref:`converged<ContactDynamicsEngine.converged>` tells in every case."))
 		((string,acceleration,"default",Attr::triggerPostLoad,"What is done between the sweeps of the nonlinear block Gauss–Seidel loop (section 5.4): ``default`` momentum with restart, and plain sweeps set against it where it stalls; ``none`` nothing, the plain loop of the paper, contact after contact from the impulses handed over. Both stop on the same certificate, so velocities agree to the tolerance; where the impulses are not unique (section 8) ``none`` stays "
-			"closest to the history of loading and ``default`` needs far fewer sweeps. The order of the contacts is that of a colouring, the same for both and for any number of threads. Another name raises ValueError."))
+			"closest to the history of loading and ``default`` needs far fewer sweeps. The order of the contacts follows from where the bodies are, the same for both and for any number of threads. Another name raises ValueError."))
 		((int,contacts,0,Attr::readonly,"Number of contacts in the last solve: candidates that the two bodies may close within a step, touching or not [-]."))
 		((int,activeContacts,0,Attr::readonly,"Number of contacts that carry an impulse after the last solve [-]."))
 		((int,iterations,0,Attr::readonly,"Sweeps of the last solve [-]."))

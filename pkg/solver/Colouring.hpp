@@ -7,8 +7,8 @@
 
 namespace contactdynamics {
 
-/// Greedy colouring: contacts of one colour share no moving body, so they are visited in any order, by any number of threads, in lanes of four,
-/// with the same bits. First free colour, in the order given: a function of the problem alone.
+/// Greedy colouring: contacts of one colour share no moving body, so four of them can be visited at a time. First free colour, in the order given: a
+/// function of the problem alone.
 ///
 /// A colouring kept between steps and mended was rejected: the bits would depend on how the state was reached, also across save and load.
 class Colouring {

@@ -13,9 +13,9 @@ namespace contactdynamics {
 /// Threads that share the independent jobs of one stage after another, for stages of microseconds.
 ///
 /// The leader deals the jobs of a stage out to desks, one of each thread, in runs of neighbours: so each core meets the same bodies again in the next
-/// colour. Everybody works off the own desk from the front, then the others' from the back, so that the leader never waits for a thread, only for a
+/// sweep. Everybody works off the own desk from the front, then the others' from the back, so that the leader never waits for a thread, only for a
 /// job that a mate has begun. OpenMP's barriers were rejected: on a machine with other work each of them waits for every thread to be scheduled
-/// again, and a sweep of ten colours, 20 microseconds of work, took 40 milliseconds on two busy cores. So was one desk for all, whose cache line goes
+/// again, and a sweep of ten stages, 20 microseconds of work, took 40 milliseconds on two busy cores. So was one desk for all, whose cache line goes
 /// from core to core with each job (doc/grains.rst). Which thread does a job is a matter of chance; results must not depend on it.
 class Crew {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which contacts are awake, and where they are.
+// Which contacts are awake, and what is laid down of each.
 #include "GrainOperator.hpp"
 
 namespace contactdynamics {
