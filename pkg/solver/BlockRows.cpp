@@ -3,7 +3,7 @@
 
 namespace contactdynamics {
 
-#ifdef CONTACTDYNAMICS_HAS_AVX2_SWEEP
+#ifdef CONTACTDYNAMICS_HAS_AVX2_KERNELS
 template <> BlockProduct selectBlockProduct<2>() { return __builtin_cpu_supports("avx2") ? blockProduct2Avx2 : blockProduct2Baseline; }
 template <> BlockProduct selectBlockProduct<3>() { return __builtin_cpu_supports("avx2") ? blockProduct3Avx2 : blockProduct3Baseline; }
 #else

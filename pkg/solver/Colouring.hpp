@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "BallPack.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace contactdynamics {
 
-/// Greedy colouring: contacts of one colour share no moving body, so four of them can be visited at a time. First free colour, in the order given: a
-/// function of the problem alone.
+/// Greedy colouring: contacts of one colour share no moving body, so those of a pack can be visited at a time. First free colour, in the order given:
+/// a function of the problem alone.
 ///
 /// A colouring kept between steps and mended was rejected: the bits would depend on how the state was reached, also across save and load.
 class Colouring {
 public:
 	static constexpr int overflow = 64; ///< colour of the contacts of a body that has more than 64: these are visited one by one
 	static constexpr int colours = overflow + 1;
-	static constexpr std::size_t lanes(int colour) { return colour == overflow ? 1 : 4; } ///< balls of a colour that one pack may hold
+	static constexpr std::size_t lanes(int colour) { return colour == overflow ? 1 : packLanes; } ///< balls of a colour that one pack may hold
 
 	/// Forgets everything; no memory is given back.
 	void reset(std::size_t bodies) { used.assign(bodies, 0); }

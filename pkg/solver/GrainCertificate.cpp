@@ -33,7 +33,7 @@ void GrainOperator::collectImpulses(std::vector<Vector3>& r)
 	r.assign(contacts.size(), Vector3::Zero());
 	inRuns(packs.size(), [&](std::size_t i) {
 		const BallPack& p = packs[i];
-		for (int k = 0; k < 4; ++k) {
+		for (int k = 0; k < packLanes; ++k) {
 			if (p.id[k] < 0) continue;
 			const Contact& c = contacts[p.id[k]];
 			r[p.id[k]] = insideCone({p.impulse[0][k], p.impulse[1][k], p.impulse[2][k]}, c.normal, c.friction);
@@ -86,7 +86,7 @@ void GrainOperator::rebuildVelocities()
 	overChunks([&](std::size_t i) {
 		const Chunk& chunk = chunks[i];
 		FieldPass* field = hasField() ? &chunkFields[i] : nullptr;
-		if (chunk.packs) ballRebuild(state.data(), packs.data() + chunk.firstPack, rollingFrom(chunk.firstPack), chunk.packs, field);
+		if (chunk.packs) kernels.rebuild(state.data(), packs.data() + chunk.firstPack, rollingFrom(chunk.firstPack), chunk.packs, field);
 		for (std::size_t g = chunk.firstGeneral; g < chunk.firstGeneral + chunk.generals; ++g) {
 			const Contact& c = problem->contacts[generals[g].id];
 			const Vector3 impulse = generals[g].frame.transpose() * generals[g].impulse;
@@ -135,7 +135,7 @@ double GrainOperator::certificate()
 	double L[9];
 	for (int i = 0; i < 9; ++i) L[i] = gradient(i / 3, i % 3);
 	const RoundOff roundOff{roundOffOf(1), roundOffOf(speedLimit)};
-	constexpr std::size_t packsPerRun = 512; // long enough for what is fetched ahead
+	constexpr std::size_t packsPerRun = 256; // long enough for what is fetched ahead
 	const auto runs = [](std::size_t count, std::size_t each) { return (count + each - 1) / each; };
 	const std::size_t packRuns = runs(packs.size(), packsPerRun), generalRuns = runs(generals.size(), perRun);
 	sums.assign(packRuns + generalRuns + runs(sleepers.size(), perRun), Sums{});
@@ -144,7 +144,7 @@ double GrainOperator::certificate()
 		if (k < packRuns) {
 			const std::size_t first = k * packsPerRun, count = std::min(packsPerRun, packs.size() - first);
 			const CertificateSums balls =
-					ballCertify(state.data(), packs.data() + first, rollingFrom(first), count, roundOff, hasField() ? L : nullptr);
+					kernels.certify(state.data(), packs.data() + first, rollingFrom(first), count, roundOff, hasField() ? L : nullptr);
 			total.residual.add(balls.map2, balls.impulse2);
 			total.approach = balls.approach;
 		} else if (k < packRuns + generalRuns) {
@@ -191,7 +191,7 @@ CrushedContacts GrainOperator::crushed(double tolerance) const
 	};
 	const auto at = [this](std::int32_t i) -> const BodyState& { return state[i < 0 ? ~i : i]; };
 	for (const BallPack& p : packs)
-		for (int k = 0; k < 4; ++k) {
+		for (int k = 0; k < packLanes; ++k) {
 			if (p.id[k] < 0) continue;
 			const Vector3 n(p.normal[0][k], p.normal[1][k], p.normal[2][k]);
 			const double rN = p.impulse[0][k] * n[0] + p.impulse[1][k] * n[1] + p.impulse[2][k] * n[2];

@@ -16,7 +16,7 @@ void GrainOperator::putSleeper(std::int32_t id)
 BallPack GrainOperator::emptyPack() const
 {
 	BallPack empty{};
-	for (int lane = 0; lane < 4; ++lane) {
+	for (int lane = 0; lane < packLanes; ++lane) {
 		empty.id[lane] = -1;
 		empty.body1[lane] = empty.body2[lane] = ~std::int32_t(problem->bodies.size());
 	}
@@ -89,7 +89,7 @@ void GrainOperator::letIdleSleep()
 			++idle;
 	};
 	for (const BallPack& p : packs)
-		for (int k = 0; k < 4; ++k) {
+		for (int k = 0; k < packLanes; ++k) {
 			if (p.id[k] < 0) continue;
 			bool carries = false;
 			for (int j = 0; j < 3; ++j) carries = carries || p.impulse[j][k] != 0 || p.increment[j][k] != 0 || p.direction[j][k] != 0;
@@ -108,7 +108,7 @@ void GrainOperator::letIdleSleep()
 	courses.clear();
 	courses.reserve(awake);
 	for (const BallPack& p : packs)
-		for (int k = 0; k < 4; ++k) {
+		for (int k = 0; k < packLanes; ++k) {
 			if (p.id[k] < 0) continue;
 			place[p.id[k]] = std::int32_t(courses.size());
 			courses.emplace_back();
@@ -137,7 +137,7 @@ void GrainOperator::letIdleSleep()
 	awake = 0;
 	layOut(selected);
 	for (BallPack& p : packs)
-		for (int k = 0; k < 4; ++k) {
+		for (int k = 0; k < packLanes; ++k) {
 			if (p.id[k] < 0) continue;
 			const Course& course = courses[place[p.id[k]]];
 			for (int j = 0; j < 3; ++j) {

@@ -136,13 +136,13 @@ void GrainOperator::exchangeKept()
 
 void GrainOperator::extrapolate(Extrapolation by, std::size_t first, std::size_t last)
 {
-	bodyAdvance(state.data() + first, sweepStart.data() + first, direction.data() + first, last - first, by);
+	kernels.advance(state.data() + first, sweepStart.data() + first, direction.data() + first, last - first, by);
 }
 
 void GrainOperator::visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by, FieldPass* field)
 {
 	if (accelerated) extrapolate(by, chunk.firstSeat, chunk.lastSeat);
-	norms = chunk.packs ? ballSweep(state.data(), packs.data() + chunk.firstPack, rollingFrom(chunk.firstPack), chunk.packs, by, field)
+	norms = chunk.packs ? kernels.sweep(state.data(), packs.data() + chunk.firstPack, rollingFrom(chunk.firstPack), chunk.packs, by, field)
 						: SweepNorms{};
 	for (std::size_t k = chunk.firstGeneral; k < chunk.firstGeneral + chunk.generals; ++k) {
 		const SweepNorms one = contactdynamics::visit(generals[k], state.data(), by, field);

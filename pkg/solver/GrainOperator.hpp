@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "BallKernels.hpp"
 #include "BodyTree.hpp"
 #include "Colouring.hpp"
 #include "Crew.hpp"
@@ -19,7 +20,7 @@ namespace contactdynamics {
 /// W = H^T M^-1 H of a collection of rigid bodies, matrix-free, as guardedLoop() uses it, with the work space of a solve.
 ///
 /// A candidate far from closing costs next to nothing: it sleeps, that is, no sweep visits it; mend() looks at all sleepers and wakes those that
-/// close. Awake contacts are laid out node by node of the tree of bodies, each node by colour in packs of four; woken ones are appended as chunks of
+/// close. Awake contacts are laid out node by node of the tree of bodies, each node by colour in packs; woken ones are appended as chunks of
 /// their own, and now and then the layout is made anew without the contacts that turned out idle. All of it depends on the problem alone.
 class GrainOperator {
 public:
@@ -84,10 +85,7 @@ private:
 	};
 
 	GrainProblem* problem = nullptr;
-	BallSweep ballSweep = selectBallSweep();
-	BodyAdvance bodyAdvance = selectBodyAdvance();
-	BallRebuild ballRebuild = selectBallRebuild();
-	BallCertify ballCertify = selectBallCertify();
+	const BallKernels& kernels = widestBallKernels();
 	bool accelerated = false;
 	int sweeps = 0;
 	Crew* crew = nullptr;

@@ -35,7 +35,7 @@ void GrainOperator::beginAtTorques()
 void GrainOperator::collectTorques()
 {
 	inRuns(rollingPacks.size(), [&](std::size_t i) {
-		for (int lane = 0; lane < 4; ++lane)
+		for (int lane = 0; lane < packLanes; ++lane)
 			if (RollingContact* rolling = packs[i].id[lane] < 0 ? nullptr : rollingAt(packs[i].id[lane])) rolling->take(rollingPacks[i], lane);
 	});
 }

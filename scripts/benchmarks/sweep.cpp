@@ -59,7 +59,7 @@ public:
 	{
 		const double contacts = double(grains.awakeContacts()), bodies = double(problem.bodies.size());
 		state.counters["contacts"] = contacts;
-		state.counters["bytes"] = contacts * (sizeof(BallPack) + 9 * 4 * sizeof(double)) / 4 + bodies * 6 * sizeof(BodyState);
+		state.counters["bytes"] = contacts * (sizeof(BallPack) + 9 * packLanes * sizeof(double)) / packLanes + bodies * 6 * sizeof(BodyState);
 		state.counters["per_contact"] = benchmark::Counter(contacts, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 	}
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Kernels that exist for wide and for plain instructions: the same bits from both, and nothing that is not finite gets lost in a mask.
-#include "pkg/solver/BallPack.hpp"
+#include "pkg/solver/BallKernels.hpp"
 #include "pkg/solver/BlockRows.hpp"
 
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <string>
 #include <vector>
 
 using namespace contactdynamics;
@@ -21,12 +22,21 @@ template <class T> bool sameBytes(const std::vector<T>& a, const std::vector<T>&
 
 template <class T> bool sameBytes(const T& a, const T& b) { return sameBytes(std::vector<T>{a}, std::vector<T>{b}); }
 
-/// Ten packs; of each the last lane lies against a body that cannot move, and in every second one lane is empty. Impulses inside, on and outside of
-/// their cones, some of them zero; likewise torques and their limits.
+constexpr int packCount = 10, bodyCount = 2 * packLanes * packCount;
+
+/// Lanes are filled in order: all, five, half, one.
+bool isEmptyLane(std::size_t pack, int lane)
+{
+	constexpr int filled[]{packLanes, packLanes / 2 + 1, packLanes / 2, 1};
+	return lane >= filled[pack % 4];
+}
+
+/// Packs; of each the first and the fourth lane lie against a body that cannot move. Impulses inside, on and outside of their cones, some of them
+/// zero; likewise torques and their limits.
 struct Balls {
-	std::vector<BodyState> bodies = std::vector<BodyState>(81);
-	std::vector<BallPack> packs = std::vector<BallPack>(10);
-	std::vector<RollingPack> rolling = std::vector<RollingPack>(10);
+	std::vector<BodyState> bodies = std::vector<BodyState>(bodyCount + 1);
+	std::vector<BallPack> packs = std::vector<BallPack>(packCount);
+	std::vector<RollingPack> rolling = std::vector<RollingPack>(packCount);
 	FieldPass field{};
 
 	explicit Balls(unsigned seed)
@@ -35,18 +45,18 @@ struct Balls {
 		std::normal_distribution<double> normal;
 		std::memset(static_cast<void*>(packs.data()), 0, packs.size() * sizeof(BallPack)); // padding, too
 		for (double& L : field.gradient) L = normal(random);
-		for (std::size_t i = 0; i < 80; ++i)
+		for (std::size_t i = 0; i < bodyCount; ++i)
 			bodies[i] = {{normal(random), normal(random), normal(random)},
 						 std::abs(normal(random)),
 						 {normal(random), normal(random), normal(random)},
 						 std::abs(normal(random))};
 		for (std::size_t i = 0; i < packs.size(); ++i)
-			for (int lane = 0; lane < 4; ++lane) {
+			for (int lane = 0; lane < packLanes; ++lane) {
 				BallPack& p = packs[i];
-				const bool empty = i % 2 && lane == 1;
-				p.id[lane] = empty ? -1 : int(4 * i) + lane;
-				p.body1[lane] = empty ? ~80 : int(8 * i) + 2 * lane;
-				p.body2[lane] = empty ? ~80 : lane == 3 ? ~(p.body1[lane] + 1) : p.body1[lane] + 1;
+				const bool empty = isEmptyLane(i, lane);
+				p.id[lane] = empty ? -1 : packLanes * int(i) + lane;
+				p.body1[lane] = empty ? ~bodyCount : 2 * (packLanes * int(i) + lane);
+				p.body2[lane] = empty ? ~bodyCount : lane % 3 == 0 ? ~(p.body1[lane] + 1) : p.body1[lane] + 1;
 				if (empty) continue;
 				double n[3], length = 0;
 				for (double& x : n) x = normal(random), length += x * x;
@@ -61,7 +71,7 @@ struct Balls {
 				p.arm1[lane] = 1, p.arm2[lane] = -0.5;
 				p.inverseWn[lane] = p.inverseWt[lane] = 0.3;
 				RollingPack& roll = rolling[i];
-				if ((4 * i + lane) % 5 == 0) continue; // without
+				if ((packLanes * i + std::size_t(lane)) % 5 == 0) continue; // without
 				roll.rollingArm[lane] = std::abs(normal(random));
 				roll.twistingArm[lane] = lane % 2 ? 0 : std::abs(normal(random));
 				roll.mobility[lane] = 3;
@@ -80,8 +90,8 @@ constexpr RoundOff roundOff{16 * std::numeric_limits<double>::epsilon(), 1e-10};
 
 CertificateSums certified(const Balls& balls, bool rolls = false)
 {
-	return ballCertifyBaseline(balls.bodies.data(), balls.packs.data(), rolls ? balls.rolling.data() : nullptr, balls.packs.size(), roundOff,
-							   nullptr);
+	return ballKernelsBaseline.certify(balls.bodies.data(), balls.packs.data(), rolls ? balls.rolling.data() : nullptr, balls.packs.size(), roundOff,
+									   nullptr);
 }
 
 struct Kind {
@@ -90,6 +100,15 @@ struct Kind {
 	RollingPack* rolling(Balls& balls) const { return rolls ? balls.rolling.data() : nullptr; }
 };
 constexpr Kind kinds[] = {{false, false}, {true, false}, {false, true}, {true, true}};
+
+/// Calls check(kernels) for all versions but the plainest that this machine can run.
+template <class Check> void forWiderKernels(const Check& check)
+{
+	for (int version = 1; version < ballKernelVersions; ++version) {
+		SCOPED_TRACE("version " + std::to_string(version));
+		if (const BallKernels* kernels = ballKernels(version)) check(*kernels);
+	}
+}
 
 /// Rows of W with 0 to 8 blocks beside the diagonal.
 template <int D> void expectSameProducts(BlockProduct plain, BlockProduct wide)
@@ -138,45 +157,56 @@ template <int D> void expectSameProducts(BlockProduct plain, BlockProduct wide)
 
 TEST(WideKernels, BallSweepHasTheBitsOfThePlainOne)
 {
-	for (const Kind& kind : kinds) {
-		Balls one(9), two = one;
-		const auto sweep = [&](BallSweep kernel, Balls& of) {
-			return kernel(of.bodies.data(), of.packs.data(), kind.rolling(of), of.packs.size(), {0.4, 0.2}, kind.field(of));
-		};
-		const SweepNorms plain = sweep(ballSweepBaseline, one), wide = sweep(selectBallSweep(), two);
-		EXPECT_TRUE(sameBytes(plain, wide));
-		EXPECT_TRUE(sameBytes(one.field, two.field));
-		EXPECT_TRUE(sameBytes(one.bodies, two.bodies) && sameBytes(one.packs, two.packs) && sameBytes(one.rolling, two.rolling));
-	}
+	forWiderKernels([](const BallKernels& kernels) {
+		for (const Kind& kind : kinds) {
+			Balls one(9), two = one;
+			const auto sweep = [&](BallSweep kernel, Balls& of) {
+				return kernel(of.bodies.data(), of.packs.data(), kind.rolling(of), of.packs.size(), {0.4, 0.2}, kind.field(of));
+			};
+			const SweepNorms plain = sweep(ballKernelsBaseline.sweep, one), wide = sweep(kernels.sweep, two);
+			EXPECT_TRUE(sameBytes(plain, wide));
+			EXPECT_GT(plain.increment2, 0);
+			EXPECT_TRUE(sameBytes(one.field, two.field));
+			EXPECT_TRUE(sameBytes(one.bodies, two.bodies) && sameBytes(one.packs, two.packs) && sameBytes(one.rolling, two.rolling));
+		}
+	});
 }
 
 TEST(WideKernels, BallCertificateHasTheBitsOfThePlainOne)
 {
-	for (const Kind& kind : kinds) {
-		Balls one(10), two = one;
-		const auto rebuild = [&](BallRebuild kernel, Balls& of) {
-			kernel(of.bodies.data(), of.packs.data(), kind.rolling(of), of.packs.size(), kind.field(of));
-		};
-		rebuild(ballRebuildBaseline, one);
-		rebuild(selectBallRebuild(), two);
-		EXPECT_TRUE(sameBytes(one.field, two.field));
-		EXPECT_TRUE(sameBytes(one.bodies, two.bodies));
-		const auto certify = [&](BallCertify kernel) {
-			const double* gradient = kind.withField ? one.field.gradient : nullptr;
-			return kernel(one.bodies.data(), one.packs.data(), kind.rolling(one), one.packs.size(), roundOff, gradient);
-		};
-		const CertificateSums plain = certify(ballCertifyBaseline), wide = certify(selectBallCertify());
-		EXPECT_TRUE(sameBytes(plain, wide));
-		EXPECT_GT(plain.map2, 0);
-	}
+	forWiderKernels([](const BallKernels& kernels) {
+		for (const Kind& kind : kinds) {
+			Balls one(10), two = one;
+			const auto rebuild = [&](BallRebuild kernel, Balls& of) {
+				kernel(of.bodies.data(), of.packs.data(), kind.rolling(of), of.packs.size(), kind.field(of));
+			};
+			rebuild(ballKernelsBaseline.rebuild, one);
+			rebuild(kernels.rebuild, two);
+			EXPECT_TRUE(sameBytes(one.field, two.field));
+			EXPECT_TRUE(sameBytes(one.bodies, two.bodies));
+			const auto certify = [&](BallCertify kernel) {
+				const double* gradient = kind.withField ? one.field.gradient : nullptr;
+				return kernel(one.bodies.data(), one.packs.data(), kind.rolling(one), one.packs.size(), roundOff, gradient);
+			};
+			const CertificateSums plain = certify(ballKernelsBaseline.certify), wide = certify(kernels.certify);
+			EXPECT_TRUE(sameBytes(plain, wide));
+			EXPECT_GT(plain.map2, 0);
+		}
+	});
 }
 
 TEST(WideKernels, BodyAdvanceHasTheBitsOfThePlainOne)
 {
-	Balls one(11), start(12), direction(13), two = one, sameStart = start, sameDirection = direction;
-	bodyAdvanceBaseline(one.bodies.data(), start.bodies.data(), direction.bodies.data(), one.bodies.size(), {0.4, 0.2});
-	selectBodyAdvance()(two.bodies.data(), sameStart.bodies.data(), sameDirection.bodies.data(), two.bodies.size(), {0.4, 0.2});
-	EXPECT_TRUE(sameBytes(one.bodies, two.bodies) && sameBytes(start.bodies, sameStart.bodies) && sameBytes(direction.bodies, sameDirection.bodies));
+	forWiderKernels([](const BallKernels& kernels) {
+		Balls one(11), start(12), direction(13), two = one, sameStart = start, sameDirection = direction;
+		const auto advance = [](BodyAdvance kernel, Balls& now, Balls& before, Balls& along) {
+			kernel(now.bodies.data(), before.bodies.data(), along.bodies.data(), now.bodies.size(), {0.4, 0.2});
+		};
+		advance(ballKernelsBaseline.advance, one, start, direction);
+		advance(kernels.advance, two, sameStart, sameDirection);
+		EXPECT_TRUE(sameBytes(one.bodies, two.bodies) && sameBytes(start.bodies, sameStart.bodies));
+		EXPECT_TRUE(sameBytes(direction.bodies, sameDirection.bodies));
+	});
 }
 
 TEST(WideKernels, BlockProductsHaveTheBitsOfThePlainOnes)
@@ -190,21 +220,23 @@ TEST(WideKernels, WhatIsNotFiniteNeverPassesAsSmall)
 	ASSERT_TRUE(std::isfinite(certified(Balls(14)).map2) && std::isfinite(certified(Balls(14), true).map2));
 	for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()})
 		for (int k = 0; k < 3; ++k) {
-			for (std::size_t i = 0; i < 80; ++i) { // all are in some contact but those of the empty lanes
-				if (i / 8 % 2 && i % 8 / 2 == 1) continue;
+			for (std::size_t i = 0; i < bodyCount; ++i) { // those of some contact
+				if (isEmptyLane(i / (2 * packLanes), int(i % (2 * packLanes)) / 2)) continue;
 				for (double(BodyState::*part)[3] : {&BodyState::velocity, &BodyState::angularVelocity}) {
 					Balls balls(14);
 					(balls.bodies[i].*part)[k] = poison;
 					EXPECT_FALSE(std::isfinite(certified(balls).map2)) << poison << ", body " << i;
 				}
 			}
-			for (int i = 0; i < 40; ++i) {
-				Balls balls(14);
-				balls.packs[i / 4].impulse[k][i % 4] = poison;
-				EXPECT_FALSE(std::isfinite(certified(balls).map2)) << poison << ", contact " << i;
-				balls = Balls(14);
-				balls.rolling[i / 4].torque[k][i % 4] = poison;
-				EXPECT_FALSE(std::isfinite(certified(balls, true).map2)) << poison << ", torque " << i;
-			}
+			for (int pack = 0; pack < packCount; ++pack)
+				for (int lane = 0; lane < packLanes; ++lane) {
+					if (isEmptyLane(std::size_t(pack), lane)) continue;
+					Balls balls(14);
+					balls.packs[pack].impulse[k][lane] = poison;
+					EXPECT_FALSE(std::isfinite(certified(balls).map2)) << poison << ", contact " << lane << " of pack " << pack;
+					balls = Balls(14);
+					balls.rolling[pack].torque[k][lane] = poison;
+					EXPECT_FALSE(std::isfinite(certified(balls, true).map2)) << poison << ", torque " << lane << " of pack " << pack;
+				}
 		}
 }
