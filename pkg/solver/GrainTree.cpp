@@ -24,7 +24,7 @@ void GrainOperator::takeSeats()
 	// megabyte of cache.
 	constexpr std::size_t contactsPerBlock = 4000;
 	const std::size_t count = problem->contacts.size();
-	const int levels = std::min(halvings(count, contactsPerRegion), mostLevels);
+	const int levels = isWorthThreads(count) ? std::min(halvings(count, contactsPerRegion), mostLevels) : 0;
 	tree.build(*problem, movable, levels, std::max(levels, halvings(count, contactsPerBlock)), *crew);
 }
 
