@@ -101,8 +101,8 @@ void advanceBodies(BodyState* now, BodyState* start, BodyState* direction, std::
 	};
 	// Beyond the last body, too: there the next block may begin. As a number, because a pointer must not go there.
 	const auto prefetch = [](const BodyState* body) {
-		constexpr std::size_t ahead = 8; // bodies
-		__builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(body) + ahead * sizeof(BodyState)), 1);
+		const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(body) + 8 * sizeof(BodyState);
+		__builtin_prefetch(reinterpret_cast<const void*>(ahead), 1); // NOLINT(performance-no-int-to-ptr)
 	};
 	constexpr int numbers = sizeof(BodyState) / sizeof(double);
 	for (std::size_t i = 0; i < count; ++i) {

@@ -254,7 +254,9 @@ TEST(BodyTree, EveryContactOfALargeProblemIsVisited)
 	for (int i = 0; i < pairs; ++i) {
 		problem.bodies.push_back(scenes::ball(1, 1, {double(1 + i), 0, 0}));
 		problem.bodies.push_back(scenes::ball(1, 1, {-double(1 + i), 0, 0}));
-		for (int k = 0; k < 2; ++k) problem.bodies[std::size_t(2 * i + k)].centre = Vector3(k, i % 500, i / 500);
+		const int column = i % 500, row = i / 500;
+		problem.bodies[problem.bodies.size() - 2].centre = Vector3(0, column, row);
+		problem.bodies.back().centre = Vector3(1, column, row);
 		problem.contacts.push_back(scenes::touch(2 * i, 1, 2 * i + 1, 1, Vector3::UnitX(), 0.3));
 	}
 	const SolveReport report = SignoriniCoulombSolver().solve(problem, upTo(1e-12, 10, 2));
