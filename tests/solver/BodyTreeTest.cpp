@@ -265,6 +265,38 @@ TEST(BodyTree, EveryContactOfALargeProblemIsVisited)
 	for (int i = 0; i < pairs; ++i) ASSERT_NEAR(problem.contacts[i].impulse[0], 1 + i, 1e-14 * (1 + i)) << i;
 }
 
+TEST(BodyTree, ContactsThatWakeTogetherAreVisited)
+{
+	// Two jaws close at speed v on light balls that they touch at 30 degrees, and squeeze them out at v cot(30) = 1.73 v, faster than anything closes
+	// at first. Each reaches another ball within the step, which leaves at 1.73 v - s: gaps too wide to be looked at before the first has moved.
+	constexpr int squeezed = 1800; // more than a region has, so that they are a pass for many threads
+	constexpr double v = 0.7;
+	const double cosine = std::cos(M_PI / 6), sine = std::sin(M_PI / 6);
+	GrainProblem problem;
+	problem.bodies = {scenes::wall(), scenes::wall()};
+	problem.bodies[0].velocity = {v, 0, 0};
+	problem.bodies[1].velocity = {-v, 0, 0};
+	std::vector<double> gap;
+	for (int i = 0; i < squeezed; ++i) {
+		const int first = int(problem.bodies.size());
+		for (int k = 0; k < 2; ++k) {
+			problem.bodies.push_back(scenes::ball(1, 1));
+			problem.bodies.back().centre = Vector3(i % 40, 2 * k, 3 * (i % 50));
+		}
+		problem.contacts.push_back(scenes::touch(0, 0, first, 1, {cosine, sine, 0}, 0));
+		problem.contacts.push_back(scenes::touch(1, 0, first, 1, {-cosine, sine, 0}, 0));
+		gap.push_back(v * (1 + 0.6 * i / squeezed));
+		problem.contacts.push_back(scenes::touch(first, 1, first + 1, 1, Vector3::UnitY(), 0, gap.back()));
+	}
+	GrainProblem two = problem;
+	SignoriniCoulombSolver solver;
+	ASSERT_EQ(solver.solve(problem, upTo(1e-12, 1000)).status, SolveStatus::converged);
+	for (int i = 0; i < squeezed; ++i) // the residual bounds the root of a sum of squares of speeds, relative to some hundred
+		ASSERT_NEAR(problem.bodies[std::size_t(3 + 2 * i)].velocity[1], v * cosine / sine - gap[std::size_t(i)], 1e-9) << i;
+	ASSERT_EQ(solver.solve(two, upTo(1e-12, 1000, 3)).status, SolveStatus::converged);
+	for (std::size_t i = 0; i < problem.contacts.size(); ++i) ASSERT_EQ(problem.contacts[i].impulse, two.contacts[i].impulse) << i;
+}
+
 TEST(BodyTree, BodiesThatCannotMoveNeedNoTree)
 {
 	GrainProblem problem;
