@@ -8,10 +8,10 @@ namespace contactdynamics {
 namespace {
 
 /// Fetches what lies ahead: of the packs what is used here (not increment and direction), and the bodies.
-inline void fetchAhead(const BodyState* bodies, const BallPack* pack, const BallPack* end)
+template <bool forWriting> void fetchAhead(const BodyState* bodies, const BallPack* pack, const BallPack* end)
 {
 	constexpr std::ptrdiff_t far = 6, near = 3, line = 64;
-	if (end - pack > near) prefetchBodies(bodies, pack[near]);
+	if (end - pack > near) prefetchBodies<forWriting>(bodies, pack[near]);
 	if (end - pack <= far) return;
 	const char* next = reinterpret_cast<const char*>(pack + far);
 	for (std::size_t at = 0; at < offsetof(BallPack, increment); at += line) __builtin_prefetch(next + at);
@@ -33,7 +33,7 @@ void rebuildOf(BodyState* bodies, const BallPack* packs, const RollingPack* roll
 {
 	Wide moment[9][parts]{};
 	for (const BallPack* pack = packs; pack != packs + count; ++pack) {
-		fetchAhead(bodies, pack, packs + count);
+		fetchAhead<true>(bodies, pack, packs + count);
 		for (int part = 0, lane = 0; part < parts; ++part, lane += WIDE_LANES) {
 			if (isEmpty(*pack, lane)) break;
 			Side one = gather(bodies, pack->body1 + lane), two = gather(bodies, pack->body2 + lane);
@@ -73,7 +73,7 @@ template <bool hasField, bool rolls> CertificateSums certifyOf(const BodyState* 
 	if (hasField)
 		for (int i = 0; i < 9; ++i) gradientSize += magnitude(all(gradient[i]));
 	for (const BallPack* pack = packs; pack != packs + count; ++pack) {
-		fetchAhead(bodies, pack, packs + count);
+		fetchAhead<false>(bodies, pack, packs + count);
 		for (int part = 0, lane = 0; part < parts; ++part, lane += WIDE_LANES) {
 			if (isEmpty(*pack, lane)) break;
 			const Side one = gather(bodies, pack->body1 + lane), two = gather(bodies, pack->body2 + lane);

@@ -146,12 +146,12 @@ inline void scatter(BodyState* bodies, const std::int32_t* index, const Side& si
 
 #endif
 
-inline void prefetchBodies(const BodyState* bodies, const BallPack& pack)
+template <bool forWriting> void prefetchBodies(const BodyState* bodies, const BallPack& pack)
 {
 #pragma GCC unroll 8
 	for (int i = 0; i < packLanes; ++i) {
-		__builtin_prefetch(at(bodies, pack.body1[i]), 1);
-		__builtin_prefetch(at(bodies, pack.body2[i]), 1);
+		__builtin_prefetch(at(bodies, pack.body1[i]), forWriting);
+		__builtin_prefetch(at(bodies, pack.body2[i]), forWriting);
 	}
 }
 

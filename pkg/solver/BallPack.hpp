@@ -57,7 +57,7 @@ struct SweepNorms {
 
 /// The mean field as one sweep sees it; matrices row by row.
 struct FieldPass {
-	double gradient[9]; ///< L, the same for the whole sweep: contacts of a colour may be visited in any order [1/s]
+	double gradient[9]; ///< L, the same for the whole sweep: contacts may be visited at the same time [1/s]
 	double moment[9];	///< in and out: sum of dr b^T over the contacts visited [kg m2/s]
 };
 

@@ -16,7 +16,7 @@ SweepNorms sweepOf(BodyState* bodies, BallPack* packs, RollingPack* rolling, std
 	constexpr std::ptrdiff_t ahead = 3; // packs: their bodies lie anywhere in memory, and only we know where
 	const BallPack* const end = packs + count;
 	for (BallPack* pack = packs; pack != end; ++pack) {
-		if (end - pack > ahead) prefetchBodies(bodies, pack[ahead]);
+		if (end - pack > ahead) prefetchBodies<true>(bodies, pack[ahead]);
 		if (end - pack > farAhead)
 			for (std::size_t i = 0; i < sizeof(BallPack); i += 64) __builtin_prefetch(reinterpret_cast<const char*>(pack + farAhead) + i, 1);
 		if (rolls && end - pack > farAhead)

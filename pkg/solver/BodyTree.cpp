@@ -93,16 +93,23 @@ std::int32_t BodyTree::halve(std::int32_t first, std::int32_t last)
 	const float longest = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
 	int axis = 0;
 	while (high[axis] - low[axis] < 0.8F * longest) ++axis;
-	// No two are equal: so a median of three has one below it, and the order of the bodies in memory does not matter.
+	// No two are equal: so a median of three has one below it, and which bodies end on which side does not depend on their order in memory. Three
+	// from places as good as random: among the first, the last and the one half way, rows that turn back have no good pivot, and take a round for
+	// each body.
 	const auto isBelow = [axis](const Item& a, const Item& b) {
 		return (a.centre[axis] < b.centre[axis]) | ((a.centre[axis] == b.centre[axis]) & (a.body < b.body));
 	};
 	constexpr std::int32_t few = 16;
+	std::uint64_t random = 1;
 	while (last - first > few) {
-		const Item &a = items[first], &b = items[first + (last - first) / 2], &c = items[last - 1];
-		const Item& lower = isBelow(a, b) ? a : b;
-		const Item& upper = isBelow(a, b) ? b : a;
-		const Item pivot = isBelow(c, lower) ? lower : isBelow(c, upper) ? c : upper;
+		const auto third = [&](int k) { // of the range, one item of it
+			random = random * 6364136223846793005U + 1442695040888963407U;
+			const auto length = std::uint64_t(last - first) / 3;
+			return items[first + std::int32_t(std::uint64_t(k) * length + (random >> 33) % length)];
+		};
+		const Item a = third(0), b = third(1), c = third(2);
+		const Item &smaller = isBelow(a, b) ? a : b, &larger = isBelow(a, b) ? b : a;
+		const Item pivot = isBelow(c, smaller) ? smaller : isBelow(c, larger) ? c : larger;
 		std::int64_t below = 0;
 		std::int32_t middle = first;
 		for (std::int32_t i = first; i < last; ++i) { // without a branch, which nobody could predict

@@ -34,7 +34,7 @@ public:
 	/// Nodes are what contacts are sorted into: the blocks, of which a region has a run, then the other jobs, one node each.
 	std::size_t nodes() const { return firstNode(jobs()); }
 	std::size_t firstNode(std::size_t job) const { return job < regions() ? job << (lower - upper) : job - regions() + blocks(); }
-	/// The node of a contact: in a region the later block of its two bodies, where nothing can move the first one.
+	/// The node of a contact: in a region the later block of its two bodies; the first block where neither can move.
 	std::size_t of(const Contact& c) const;
 
 	std::vector<std::int32_t> block; ///< of each body, -1 for one that cannot move

@@ -49,7 +49,7 @@ public:
 	void finish(SolveReport& report);
 
 private:
-	/// At most: 10 to 15 microseconds of work, some ten times as much as it costs two cores to hand over what they share.
+	/// At most, in the mean: 10 to 15 microseconds of work, some ten times as much as it costs two cores to hand over what they share.
 	static constexpr std::size_t contactsPerRegion = 1500;
 	static constexpr int mostLevels = 6;	   // of the tree of bodies above its regions: 64 regions are enough for any number of threads
 	static constexpr std::size_t perRun = 512; // contacts or bodies that one job of the crew looks at

@@ -37,7 +37,9 @@ void GrainOperator::layOut(const std::vector<std::int32_t>& ids)
 	colourOf.resize(ids.size());
 	byNode.resize(ids.size());
 	order.resize(ids.size());
-	inRuns(ids.size(), [&](std::size_t i) { colourOf[i] = std::int32_t(tree.of(problem->contacts[ids[i]])); });
+	// A few that wake later are one node, for one thread: a node for each would leave most lanes of their packs empty.
+	const bool isShared = tree.regions() > 1 && ids.size() > contactsPerRegion, byTree = isFirst || isShared;
+	inRuns(ids.size(), [&](std::size_t i) { colourOf[i] = byTree ? std::int32_t(tree.of(problem->contacts[ids[i]])) : 0; });
 	firstOfNode.assign(tree.nodes() + 2, 0);
 	for (const std::int32_t node : colourOf) ++firstOfNode[node + 2];
 	for (std::size_t n = 2; n < firstOfNode.size(); ++n) firstOfNode[n] += firstOfNode[n - 1];
@@ -47,7 +49,7 @@ void GrainOperator::layOut(const std::vector<std::int32_t>& ids)
 	overJobs([&](std::size_t job) {
 		for (std::size_t n = tree.firstNode(job); n < tree.firstNode(job + 1); ++n) colourNode(n);
 	});
-	Pass pass{chunks.size(), 0, jobs.size(), tree.regions() > 1 && ids.size() > contactsPerRegion};
+	Pass pass{chunks.size(), 0, jobs.size(), isShared};
 	std::size_t packCount = packs.size(), generalCount = generals.size();
 	for (std::size_t job = 0; job < tree.jobs(); ++job) {
 		const std::size_t firstChunk = chunks.size();

@@ -93,7 +93,7 @@ bool isFinite(const GrainProblem& problem)
 {
 	double poison = 0; // zero times a finite number is zero, times anything else not a number
 	for (const Body& b : problem.bodies)
-		poison += 0 * (b.velocity.sum() + b.angularVelocity.sum() + b.inverseMass.sum() + b.inverseInertia.sum() + b.centre.sum());
+		poison += 0 * (b.velocity.sum() + b.angularVelocity.sum() + b.inverseMass.sum() + b.inverseInertia.sum()) + (0 * b.centre).sum();
 	if (problem.meanField) poison += 0 * (problem.meanField->gradient.sum() + problem.meanField->inverseMass.sum());
 	for (const Contact& c : problem.contacts)
 		poison += 0 * (c.normal.sum() + c.arm1.sum() + c.arm2.sum() + c.imageVelocity.sum() + c.impulse.sum() + c.friction + c.gapVelocity +

@@ -55,7 +55,7 @@ struct Built {
 		crew.resume();
 		tree.build(problem, movable, levels, depth, crew);
 	}
-	/// Bodies that can move and contacts of each job.
+	/// Bodies that can move of each job.
 	std::vector<std::set<std::int32_t>> bodiesOfJobs() const
 	{
 		std::vector<std::set<std::int32_t>> bodies(tree.jobs());
@@ -111,7 +111,7 @@ TEST(BodyTree, EachMovingBodyHasOneSeatInOneBlock)
 
 TEST(BodyTree, PartsOfAHalvingWeighTheSame)
 {
-	// A body weighs one more than its contacts; a cut is off by no more than half of the body next to it, which the halvings below halve again.
+	// A body weighs one more than its contacts; a cut is off by less than the body next to it, and the halvings below halve that: twice in all.
 	for (const auto& [levels, depth] : shapes) {
 		const Built built(scenes::heap(12, 3), levels, depth);
 		std::vector<double> weight(built.movable.size(), 1), ofBlock(built.tree.blocks());
@@ -226,6 +226,19 @@ TEST(BodyTree, AnyCentresGiveAPartition)
 			if (block >= 0) ++bodies[block];
 		EXPECT_GT(*std::min_element(bodies.begin(), bodies.end()), 0) << kind;
 	}
+}
+
+TEST(BodyTree, RowsThatTurnBackAreHalvedAsFastAsOthers)
+{
+	// There and back again along a line: pivots from the ends and the middle of a range are its extremes, and took 47 s for as many bodies.
+	constexpr int bodies = 262144;
+	GrainProblem problem;
+	for (int i = 0; i < bodies; ++i) {
+		problem.bodies.push_back(scenes::ball(1, 1));
+		problem.bodies.back().centre[0] = std::abs(i - bodies / 2);
+	}
+	const Built built(std::move(problem), 6, 8);
+	for (std::size_t b = 0; b < built.tree.blocks(); ++b) EXPECT_EQ(built.tree.firstSeat[b + 1] - built.tree.firstSeat[b], bodies / 256);
 }
 
 TEST(BodyTree, SameForAnyNumberOfThreadsAndAnyOrderInMemory)

@@ -34,7 +34,7 @@ TEST_P(CrewOf, AllTakePart)
 	}
 }
 
-/// A stage reads what the one before has written, as the colours of a sweep do: a job that is missed, done twice or done in another stage shows.
+/// A stage reads what the one before has written, as the jobs of a sweep do: a job that is missed, done twice or done in another stage shows.
 TEST_P(CrewOf, EveryJobOnceInItsStage)
 {
 	Crew crew(GetParam());

@@ -274,7 +274,7 @@ TEST(BadInput, NotFiniteLeavesTheProblemAsGiven)
 {
 	const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
 	for (const double bad : {nan, infinity, -infinity}) {
-		for (int where = 0; where < 7; ++where) {
+		for (int where = 0; where < 8; ++where) {
 			GrainProblem problem = scenes::column(3, 0.1);
 			switch (where) {
 			case 0:
@@ -297,6 +297,9 @@ TEST(BadInput, NotFiniteLeavesTheProblemAsGiven)
 				break;
 			case 6:
 				problem.contacts[1].arm1[0] = bad;
+				break;
+			case 7:
+				problem.bodies[1].centre[2] = bad;
 				break;
 			}
 			GrainProblem given = problem;

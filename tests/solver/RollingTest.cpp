@@ -151,7 +151,7 @@ TEST(RollingFriction, WhatIsReturnedGoesTogether)
 
 TEST(RollingFriction, SameBitsForAnyThreads)
 {
-	for (const int side : {12, 24}) { // 8 and 32 regions
+	for (const int side : {12, 24}) { // 4 and 64 regions
 		GrainProblem one = rollingHeap(side, 2, 0.3, 0.05, side == 12), two = one;
 		const std::size_t count = one.contacts.size();
 		ASSERT_TRUE(GrainOperator::isWorthThreads(count)) << count;
