@@ -2,8 +2,4 @@
 // Compiled with -mavx2 (but without fused multiply-add, which would change the bits); called only where the processor has it.
 #define WIDE_LANES 4
 #define BALL_KERNELS ballKernelsAvx2
-#include "BallSweep.inl"
-
-#include "BallCertificate.inl"
-
 #include "BallVersion.inl"

@@ -2,8 +2,4 @@
 // Compiled for AVX-512 (but without fused multiply-add, which would change the bits); called only where the processor has it.
 #define WIDE_LANES 8
 #define BALL_KERNELS ballKernelsAvx512
-#include "BallSweep.inl"
-
-#include "BallCertificate.inl"
-
 #include "BallVersion.inl"

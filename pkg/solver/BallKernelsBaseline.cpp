@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #define WIDE_LANES 4
 #define BALL_KERNELS ballKernelsBaseline
-#include "BallSweep.inl"
-
-#include "BallCertificate.inl"
-
 #include "BallVersion.inl"

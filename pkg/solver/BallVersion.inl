@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The kernels of BallSweep.inl and BallCertificate.inl as BALL_KERNELS.
-#include "BallKernels.hpp"
+// One version of the kernels, WIDE_LANES wide, as BALL_KERNELS.
+#include "BallCertificate.inl"
+#include "BallSweep.inl"
 
 namespace contactdynamics {
 

@@ -18,7 +18,6 @@ public:
 	/// @param movable  whether an impulse can move the body;  @param depth  >= levels
 	void build(const GrainProblem& problem, const std::vector<std::uint8_t>& movable, int levels, int depth, Crew& crew);
 
-	int levels() const { return upper; }
 	std::size_t regions() const { return std::size_t(1) << upper; }
 	std::size_t blocks() const { return std::size_t(1) << lower; }
 	/// Jobs are numbered in the order of a sweep: regions, joints level by level, pairs stage by stage.

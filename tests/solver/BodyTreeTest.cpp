@@ -304,7 +304,7 @@ TEST(BodyTree, ContactsThatWakeTogetherAreVisited)
 	GrainProblem two = problem;
 	SignoriniCoulombSolver solver;
 	ASSERT_EQ(solver.solve(problem, upTo(1e-12, 1000)).status, SolveStatus::converged);
-	for (int i = 0; i < squeezed; ++i) // the residual bounds the root of a sum of squares of speeds, relative to some hundred
+	for (int i = 0; i < squeezed; ++i) // the residual times the root of the sum of r W r, some hundred, times ten for two contacts in a row
 		ASSERT_NEAR(problem.bodies[std::size_t(3 + 2 * i)].velocity[1], v * cosine / sine - gap[std::size_t(i)], 1e-9) << i;
 	ASSERT_EQ(solver.solve(two, upTo(1e-12, 1000, 3)).status, SolveStatus::converged);
 	for (std::size_t i = 0; i < problem.contacts.size(); ++i) ASSERT_EQ(problem.contacts[i].impulse, two.contacts[i].impulse) << i;
