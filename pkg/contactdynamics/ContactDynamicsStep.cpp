@@ -10,7 +10,7 @@
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
-#include <pkg/solver/GeneralContact.hpp>
+#include <pkg/solver/LocalDelassus.hpp>
 #include <algorithm>
 #include <cmath>
 #include <numeric>

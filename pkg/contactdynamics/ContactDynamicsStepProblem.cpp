@@ -4,7 +4,7 @@
 #include <boost/python/tuple.hpp>
 #include <pkg/solver/AssembledGrains.hpp>
 #include <pkg/solver/ConvergenceNorms.hpp>
-#include <pkg/solver/GeneralContact.hpp>
+#include <pkg/solver/LocalDelassus.hpp>
 #include <stdexcept>
 
 namespace yade {

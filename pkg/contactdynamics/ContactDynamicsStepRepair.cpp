@@ -8,7 +8,7 @@
 #include <core/Scene.hpp>
 #include <algorithm>
 #include <limits>
-#include <pkg/solver/GeneralContact.hpp>
+#include <pkg/solver/LocalDelassus.hpp>
 
 namespace yade {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "PlaneOfMotion.hpp"
-#include <pkg/solver/GeneralContact.hpp>
+#include <pkg/solver/LocalDelassus.hpp>
 #include <cmath>
 
 namespace yade {

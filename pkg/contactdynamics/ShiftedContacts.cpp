@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ShiftedContacts.hpp"
 #include "ContactDynamicsPhys.hpp"
-#include <pkg/solver/GeneralContact.hpp>
+#include <pkg/solver/LocalDelassus.hpp>
 #include <algorithm>
 
 namespace yade {

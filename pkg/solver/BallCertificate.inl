@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The certificate of ball contacts; included as BallSweep.inl is.
-#include "BallKernels.hpp"
-#include "BallLanes.inl"
+#include "CertificateLanes.inl"
 
 namespace contactdynamics {
 
@@ -17,16 +16,6 @@ template <bool forWriting> void fetchAhead(const BodyState* bodies, const BallPa
 	for (std::size_t at = 0; at < offsetof(BallPack, increment); at += line) __builtin_prefetch(next + at);
 	for (std::size_t at = offsetof(BallPack, body1); at < sizeof(BallPack); at += line) __builtin_prefetch(next + at);
 }
-
-inline Wide magnitude(Wide a) { return (Wide)((Lanes)a & 0x7fffffffffffffff); }
-inline bool any(Lanes mask)
-{
-	long long found = 0;
-	for (int i = 0; i < WIDE_LANES; ++i) found |= mask[i];
-	return found != 0;
-}
-inline Wide largest(Wide a, Wide b) { return b > a ? b : a; }
-inline Wide sizeOf(const Vector& a) { return magnitude(a.x) + magnitude(a.y) + magnitude(a.z); }
 
 template <bool hasField, bool rolls>
 void rebuildOf(BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, FieldPass* field)
@@ -64,14 +53,12 @@ void rebuildPacks(BodyState* bodies, const BallPack* packs, const RollingPack* r
 	rebuild(bodies, packs, rolling, count, field);
 }
 
-/// NaturalMap.hpp with everything multiplied by W_nn: with Z = W_nn r - (u + mu |u_t| n), a velocity, W_nn F = W_nn r - P_K(Z), since K is a cone.
 template <bool hasField, bool rolls> CertificateSums certifyOf(const BodyState* bodies, const BallPack* packs, const RollingPack* rolling,
 															   std::size_t count, RoundOff roundOff, const double* gradient)
 {
-	const Wide zero = all(0), unit = all(1), perSpeed = all(roundOff.perSpeed), most = all(roundOff.most), most2 = most * most;
-	Wide map2[parts]{}, impulse2[parts]{}, approach = zero, gradientSize = zero;
-	if (hasField)
-		for (int i = 0; i < 9; ++i) gradientSize += magnitude(all(gradient[i]));
+	const Wide zero = all(0), unit = all(1), most2 = all(roundOff.most * roundOff.most);
+	Wide map2[parts]{}, impulse2[parts]{}, approach = zero;
+	const Wide gradientSize = hasField ? sizeOf(gradient) : zero;
 	for (const BallPack* pack = packs; pack != packs + count; ++pack) {
 		fetchAhead<false>(bodies, pack, packs + count);
 		for (int part = 0, lane = 0; part < parts; ++part, lane += WIDE_LANES) {
@@ -90,17 +77,8 @@ template <bool hasField, bool rolls> CertificateSums certifyOf(const BodyState* 
 			const Wide rn = dot(r, n), Wn = one.inverseMass + two.inverseMass;
 			const Vector rt = r - rn * n;
 			const Wide Wt = Wn + arm1 * arm1 * one.inverseInertia + arm2 * arm2 * two.inverseInertia;
-			const Wide rise = un + mu * squareRoot(dot(ut, ut)), Wrn = Wn * rn, zn = Wrn - rise;
-			const Vector Wrt = Wn * rt, zt = Wrt - ut;
-			const Wide length = squareRoot(dot(zt, zt)), slope = mu * length, onRim = (zn + slope) / ((unit + mu * mu) * length);
-			const Lanes inside = (zn >= zero) & (length <= mu * zn), polar = slope <= -zn;
-			const auto pick = [&](Wide whereInside, Wide wherePolar, Wide elsewhere) {
-				return inside ? whereInside : (polar ? wherePolar : elsewhere);
-			};
-			const Wide rim = mu * onRim;
-			const Wide fn = pick(rise, Wrn, Wrn - onRim * length);
-			const Vector ft{pick(ut.x, Wrt.x, Wrt.x - rim * zt.x), pick(ut.y, Wrt.y, Wrt.y - rim * zt.y), pick(ut.z, Wrt.z, Wrt.z - rim * zt.z)};
-			const Wide fn2 = fn * fn, ft2 = dot(ft, ft), f2 = fn2 + ft2;
+			const ScaledMap<Vector> f = scaledMap(Wn, mu, rn, rt, un, ut);
+			const Wide fn2 = f.n * f.n, ft2 = dot(f.t, f.t), f2 = fn2 + ft2;
 
 			const Lanes moves = Wn > zero;
 			Lanes counts = moves & ~((un >= zero) & (rn <= zero));
@@ -108,26 +86,16 @@ template <bool hasField, bool rolls> CertificateSums certifyOf(const BodyState* 
 				Wide speeds = sizeOf(one.v) + sizeOf(two.v) + magnitude(gapVelocity) +
 							  (sizeOf(one.w) * magnitude(arm1) + sizeOf(two.w) * magnitude(arm2)) * sizeOf(n);
 				if (hasField) speeds += gradientSize * magnitude(arm1 - arm2) * sizeOf(n);
-				const Wide noise = perSpeed * speeds;
-				counts &= ~(f2 <= (noise < most ? noise * noise : most2));
+				counts &= ~isRoundOff(f2, speeds, roundOff);
 			}
 			const Wide inverse = unit / Wn;
 			// What is not finite must not be masked: zero times it is not a number.
 			map2[part] += (counts ? (fn2 + Wt * inverse * ft2) * inverse : zero) + zero * (un + rn);
 			impulse2[part] += moves ? Wn * rn * rn + Wt * dot(rt, rt) : zero;
-			if (!rolls) continue;
-
-			const RollingPack& roll = rolling[pack - packs];
-			const Vector torque = load(roll.torque, lane), map = torque - improvedTorque(roll, lane, torque, two.w - one.w, n, rn);
-			const Wide Ww = load(roll.mobility + lane), size2 = dot(map, map);
-			const Wide noise = perSpeed * (sizeOf(one.w) + sizeOf(two.w) + sizeOf(load(roll.drive, lane))) * load(roll.inverseMobility + lane);
-			map2[part] += (size2 > noise * noise ? Ww * size2 : zero) + zero * size2;
-			impulse2[part] += Ww * dot(torque, torque);
+			if (rolls) certifyTorque(rolling[pack - packs], lane, one.w, two.w, n, rn, roundOff, map2[part], impulse2[part]);
 		}
 	}
-	double top = 0;
-	for (int lane = 0; lane < WIDE_LANES; ++lane) top = approach[lane] > top ? approach[lane] : top;
-	return {sum(map2), sum(impulse2), top};
+	return {sum(map2), sum(impulse2), largestLane(approach)};
 }
 
 CertificateSums certifyPacks(const BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, RoundOff roundOff,

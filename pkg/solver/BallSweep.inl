@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Sweep and extrapolation; included by one file for each version, which says how many lanes a wide number has.
-#include "BallKernels.hpp"
-#include "BallLanes.inl"
+#include "ContactKernels.hpp"
+#include "WideLanes.inl"
 
 namespace contactdynamics {
 
@@ -63,12 +63,7 @@ SweepNorms sweepOf(BodyState* bodies, BallPack* packs, RollingPack* rolling, std
 			two.w = two.w + (two.inverseInertia * arm2) * turn;
 			if (rolls) {
 				RollingPack& roll = rolling[pack - packs];
-				const Vector lastTurn = load(roll.increment, lane), turnAhead = relax * lastTurn + momentum * load(roll.direction, lane);
-				const Vector before = load(roll.torque, lane) + turnAhead, torque = improvedTorque(roll, lane, before, two.w - one.w, n, rn);
-				const Vector dm = torque - before;
-				store(roll.direction, lane, lastTurn + turnAhead);
-				store(roll.torque, lane, torque);
-				store(roll.increment, lane, dm);
+				const Vector dm = visitTorque(roll, lane, relax, momentum, two.w - one.w, n, rn), torque = load(roll.torque, lane);
 				one.w = one.w - one.inverseInertia * dm;
 				two.w = two.w + two.inverseInertia * dm;
 				const Wide Ww = load(roll.mobility + lane);

@@ -31,18 +31,16 @@ void GrainOperator::collectImpulses(std::vector<Vector3>& r)
 {
 	const auto& contacts = problem->contacts;
 	r.assign(contacts.size(), Vector3::Zero());
-	inRuns(packs.size(), [&](std::size_t i) {
-		const BallPack& p = packs[i];
-		for (int k = 0; k < packLanes; ++k) {
-			if (p.id[k] < 0) continue;
-			const Contact& c = contacts[p.id[k]];
-			r[p.id[k]] = insideCone({p.impulse[0][k], p.impulse[1][k], p.impulse[2][k]}, c.normal, c.friction);
-		}
-	});
-	inRuns(generals.size(), [&](std::size_t i) {
-		const GeneralContact& g = generals[i];
-		r[g.id] = insideCone(g.frame.transpose() * g.impulse, contacts[g.id].normal, g.friction);
-	});
+	const auto collect = [&](const auto& from) {
+		inRuns(from.size(), [&](std::size_t i) {
+			for (int lane = 0; lane < packLanes; ++lane) {
+				const std::int32_t id = from[i].id[lane];
+				if (id >= 0) r[id] = insideCone(impulseOf(from[i], lane), contacts[id].normal, contacts[id].friction);
+			}
+		});
+	};
+	collect(packs);
+	collect(generals);
 }
 
 void GrainOperator::addImpulse(const Contact& c, const Vector3& impulse)
@@ -87,13 +85,9 @@ void GrainOperator::rebuildVelocities()
 		const Chunk& chunk = chunks[i];
 		FieldPass* field = hasField() ? &chunkFields[i] : nullptr;
 		if (chunk.packs) kernels.rebuild(state.data(), packs.data() + chunk.firstPack, rollingFrom(chunk.firstPack), chunk.packs, field);
-		for (std::size_t g = chunk.firstGeneral; g < chunk.firstGeneral + chunk.generals; ++g) {
-			const Contact& c = problem->contacts[generals[g].id];
-			const Vector3 impulse = generals[g].frame.transpose() * generals[g].impulse;
-			addImpulse(c, impulse);
-			if (generals[g].rolling) addTorque(c, generals[g].rolling->torque);
-			if (field) Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(field->moment) += impulse * (c.arm1 - c.arm2).transpose();
-		}
+		if (chunk.generals)
+			kernels.rebuildGeneral(state.data(), mobilities.data(), generals.data() + chunk.firstGeneral, rollingGeneralsFrom(chunk.firstGeneral),
+								   chunk.generals, field);
 	});
 	if (!hasField()) return;
 	moment.setZero();
@@ -108,18 +102,18 @@ Vector3 GrainOperator::relativeVelocity(const Contact& c) const
 	return U;
 }
 
-/// Adds one contact of any kind to the sums.
-/// @param W  with the compliance on its diagonal;  @param r  impulse; both in the frame
-void GrainOperator::certify(const Contact& c, const Matrix3& frame, const Matrix3& W, const Vector3& r, Sums& total) const
+/// Adds a contact that sleeps, without an impulse, to the sums.
+void GrainOperator::certifyWithout(const Contact& c, Sums& total) const
 {
-	Vector3 u = frame * relativeVelocity(c) + Vector3(c.normalCompliance, c.tangentialCompliance, c.tangentialCompliance).cwiseProduct(r);
+	const Matrix3 frame = contactFrame(c.normal), W = compliantDelassus(c, frame);
+	Vector3 u = frame * relativeVelocity(c);
 	u[0] += c.gapVelocity;
 	total.approach = std::max(total.approach, -u[0]);
-	if (u[0] >= 0 && r[0] <= 0) return; // open and separating: F = 0
 	if (!(W(0, 0) > 0)) return;
-	const auto F = naturalMap<Eigen::Vector2d>({r[0], r.tail<2>()}, {u[0], u.tail<2>()}, c.friction, W(0, 0), std::min(speedsAt(c), speedLimit));
+	const auto F =
+			naturalMap<Eigen::Vector2d>({0, Eigen::Vector2d::Zero()}, {u[0], u.tail<2>()}, c.friction, W(0, 0), std::min(speedsAt(c), speedLimit));
 	const Vector3 f(F.n, F.t[0], F.t[1]);
-	total.residual.add(f.dot(W * f), r.dot(W * r));
+	total.residual.add(f.dot(W * f), 0);
 }
 
 Matrix3 GrainOperator::compliantDelassus(const Contact& c, const Matrix3& frame) const
@@ -137,37 +131,28 @@ double GrainOperator::certificate()
 	const RoundOff roundOff{roundOffOf(1), roundOffOf(speedLimit)};
 	constexpr std::size_t packsPerRun = 256; // long enough for what is fetched ahead
 	const auto runs = [](std::size_t count, std::size_t each) { return (count + each - 1) / each; };
-	const std::size_t packRuns = runs(packs.size(), packsPerRun), generalRuns = runs(generals.size(), perRun);
+	const std::size_t packRuns = runs(packs.size(), packsPerRun), generalRuns = runs(generals.size(), packsPerRun);
 	sums.assign(packRuns + generalRuns + runs(sleepers.size(), perRun), Sums{});
 	share(sums.size(), [&](std::size_t k) {
 		Sums& total = sums[k];
+		const double* const field = hasField() ? L : nullptr;
+		CertificateSums awakeOnes;
 		if (k < packRuns) {
 			const std::size_t first = k * packsPerRun, count = std::min(packsPerRun, packs.size() - first);
-			const CertificateSums balls =
-					kernels.certify(state.data(), packs.data() + first, rollingFrom(first), count, roundOff, hasField() ? L : nullptr);
-			total.residual.add(balls.map2, balls.impulse2);
-			total.approach = balls.approach;
+			awakeOnes = kernels.certify(state.data(), packs.data() + first, rollingFrom(first), count, roundOff, field);
 		} else if (k < packRuns + generalRuns) {
-			const std::size_t first = (k - packRuns) * perRun;
-			for (std::size_t i = first; i < std::min(generals.size(), first + perRun); ++i) {
-				const GeneralContact& g = generals[i];
-				const Contact& c = problem->contacts[g.id];
-				if (hasField()) // the W of the visits is another one, see startField()
-					certify(c, g.frame, compliantDelassus(c, g.frame), g.impulse, total);
-				else
-					certify(c, g.frame, g.W, g.impulse, total);
-				if (g.rolling) certify(*g.rolling, c, g.impulse[0], total);
-			}
+			const std::size_t first = (k - packRuns) * packsPerRun, count = std::min(packsPerRun, generals.size() - first);
+			awakeOnes = kernels.certifyGeneral(state.data(), mobilities.data(), generals.data() + first, rollingGeneralsFrom(first), count, roundOff,
+											   field);
 		} else {
 			const std::size_t first = (k - packRuns - generalRuns) * perRun;
 			for (std::size_t i = first; i < std::min(sleepers.size(), first + perRun); ++i) {
 				const Sleeper& s = sleepers[i];
-				if (normalVelocity(s) + s.offset >= 0) continue;
-				const Contact& c = problem->contacts[s.id];
-				const Matrix3 frame = contactFrame(c.normal);
-				certify(c, frame, compliantDelassus(c, frame), Vector3::Zero(), total);
+				if (!(normalVelocity(s) + s.offset >= 0)) certifyWithout(problem->contacts[s.id], total);
 			}
 		}
+		total.residual.add(awakeOnes.map2, awakeOnes.impulse2);
+		total.approach = std::max(total.approach, awakeOnes.approach);
 	});
 	Sums total;
 	for (const Sums& one : sums) {
@@ -190,18 +175,16 @@ CrushedContacts GrainOperator::crushed(double tolerance) const
 		found.add(free.dot(c.normal) + c.gapVelocity, uN, rN, compliantDelassus(c, contactFrame(c.normal))(0, 0));
 	};
 	const auto at = [this](std::int32_t i) -> const BodyState& { return state[i < 0 ? ~i : i]; };
-	for (const BallPack& p : packs)
-		for (int k = 0; k < packLanes; ++k) {
-			if (p.id[k] < 0) continue;
-			const Vector3 n(p.normal[0][k], p.normal[1][k], p.normal[2][k]);
-			const double rN = p.impulse[0][k] * n[0] + p.impulse[1][k] * n[1] + p.impulse[2][k] * n[2];
-			const double field = hasField() ? (p.arm1[k] - p.arm2[k]) * n.dot(gradient * n) : 0;
-			look(p.id[k], (velocity(at(p.body2[k])) - velocity(at(p.body1[k]))).dot(n) + p.gapVelocity[k] + field, rN);
-		}
-	for (const GeneralContact& g : generals) {
-		const Contact& c = problem->contacts[g.id];
-		look(g.id, relativeVelocity(c).dot(c.normal) + c.gapVelocity + c.normalCompliance * g.impulse[0], g.impulse[0]);
-	}
+	eachContact(packs, [&](const BallPack& p, int k) {
+		const Vector3 n(p.normal[0][k], p.normal[1][k], p.normal[2][k]);
+		const double field = hasField() ? (p.arm1[k] - p.arm2[k]) * n.dot(gradient * n) : 0;
+		look(p.id[k], (velocity(at(p.body2[k])) - velocity(at(p.body1[k]))).dot(n) + p.gapVelocity[k] + field, impulseOf(p, k).dot(n));
+	});
+	eachContact(generals, [&](const GeneralPack& g, int k) {
+		const Contact& c = problem->contacts[g.id[k]];
+		const double rN = g.impulse[0][k];
+		look(g.id[k], relativeVelocity(c).dot(c.normal) + c.gapVelocity + c.normalCompliance * rN, rN);
+	});
 	return found.any() && mayStandStill() ? CrushedContacts(tolerance, 0) : found;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which contacts are awake, and what is laid down of each.
 #include "GrainOperator.hpp"
+#include "OneContact.hpp"
+
+#include <Eigen/Geometry>
 
 namespace contactdynamics {
 
@@ -13,14 +16,51 @@ void GrainOperator::putSleeper(std::int32_t id)
 						tree.seat[c.body1], tree.seat[c.body2], id, !c.ball});
 }
 
-BallPack GrainOperator::emptyPack() const
+template <class Pack> Pack GrainOperator::emptyPack() const
 {
-	BallPack empty{};
+	Pack empty{};
 	for (int lane = 0; lane < packLanes; ++lane) {
 		empty.id[lane] = -1;
 		empty.body1[lane] = empty.body2[lane] = ~std::int32_t(problem->bodies.size());
 	}
 	return empty;
+}
+template BallPack GrainOperator::emptyPack() const;
+template GeneralPack GrainOperator::emptyPack() const;
+
+Vector3 GrainOperator::impulseOf(const BallPack& p, int lane) { return {p.impulse[0][lane], p.impulse[1][lane], p.impulse[2][lane]}; }
+
+Vector3 GrainOperator::impulseOf(const GeneralPack& p, int lane)
+{
+	const Vector3 n(p.normal[0][lane], p.normal[1][lane], p.normal[2][lane]), t(p.tangent[0][lane], p.tangent[1][lane], p.tangent[2][lane]);
+	return p.impulse[0][lane] * n + p.impulse[1][lane] * t + p.impulse[2][lane] * n.cross(t);
+}
+
+/// What general contacts ask for of their bodies.
+void GrainOperator::takeMobilities()
+{
+	const auto& bodies = problem->bodies;
+	const auto& contacts = problem->contacts;
+	mobilities.clear();
+	if (std::all_of(contacts.begin(), contacts.end(), [this](const Contact& c) { return isBall(c); })) return;
+	mobilities.resize(state.size());
+	inRuns(bodies.size(), [&](std::size_t i) {
+		const Vector3& mass = bodies[i].inverseMass;
+		const Matrix3& inertia = bodies[i].inverseInertia;
+		mobilities[tree.seat[i]] = {mass[1], mass[2], {inertia(0, 0), inertia(1, 1), inertia(2, 2)}, inertia(1, 2), inertia(2, 0), inertia(0, 1)};
+	});
+}
+
+void GrainOperator::forgetLayout()
+{
+	packs.clear();
+	generals.clear();
+	rollingPacks.clear();
+	rollingGenerals.clear();
+	passes.clear();
+	jobs.clear();
+	chunks.clear();
+	awake = 0;
 }
 
 void GrainOperator::putBall(std::size_t at, int lane, std::int32_t id)
@@ -46,30 +86,40 @@ void GrainOperator::putBall(std::size_t at, int lane, std::int32_t id)
 	pack.inverseWt[lane] = Wt > 0 ? 1 / mobility(Wt, c) : 0;
 }
 
-void GrainOperator::putGeneral(GeneralContact& g, std::int32_t id)
+void GrainOperator::putGeneral(std::size_t at, int lane, std::int32_t id)
 {
+	GeneralPack& pack = generals[at];
+	if (const RollingContact* rolling = rollingAt(id)) rolling->put(rollingGenerals[at], lane);
 	const Contact& c = problem->contacts[id];
-	g.id = id;
-	g.body1 = indexOf(c.body1);
-	g.body2 = indexOf(c.body2);
-	g.mobility1 = &problem->bodies[c.body1];
-	g.mobility2 = &problem->bodies[c.body2];
-	g.frame = contactFrame(c.normal);
-	g.arm1 = c.arm1;
-	g.arm2 = c.arm2;
-	g.offset = g.frame * c.imageVelocity;
-	g.offset[0] += c.gapVelocity;
-	g.compliance = {c.normalCompliance, c.tangentialCompliance, c.tangentialCompliance};
-	g.W = localDelassus(problem->bodies[c.body1], problem->bodies[c.body2], c, g.frame);
-	g.W.diagonal() += g.compliance;
-	if (hasField() && g.W(0, 0) > 0) g.W.diagonal().array() += mobility(g.W(0, 0), c) - g.W(0, 0);
-	g.friction = c.friction;
-	g.local = OneContact(g.W);
-	g.slidingRate = 0;
-	g.impulse = g.frame * impulses[id];
-	g.rolling = rollingAt(id);
-	g.increment.setZero();
-	g.direction.setZero();
+	Matrix3 frame = contactFrame(c.normal);
+	Matrix3 W = compliantDelassus(c, frame);
+	const double added = hasField() && W(0, 0) > 0 ? mobility(W(0, 0), c) - W(0, 0) : 0;
+	W.diagonal().array() += added;
+	const OneContact local(W);
+	frame = local.principalFrame(frame);
+	const Vector3 impulse = frame * impulses[id], image = frame * c.imageVelocity;
+	for (int k = 0; k < 3; ++k) {
+		pack.normal[k][lane] = frame(0, k);
+		pack.tangent[k][lane] = frame(1, k);
+		pack.arm1[k][lane] = c.arm1[k];
+		pack.arm2[k][lane] = c.arm2[k];
+		pack.offset[k][lane] = image[k] + (k == 0 ? c.gapVelocity : 0);
+		pack.impulse[k][lane] = impulse[k];
+	}
+	pack.normalCompliance[lane] = c.normalCompliance;
+	pack.tangentialCompliance[lane] = c.tangentialCompliance;
+	pack.addedMobility[lane] = added;
+	const PrincipalContact& along = local.principal();
+	pack.Wnn[lane] = along.Wnn;
+	pack.wLarge[lane] = along.wLarge;
+	pack.wSmall[lane] = along.wSmall;
+	pack.largeEigen[lane] = along.largeEigen;
+	pack.smallEigen[lane] = along.smallEigen;
+	pack.roundOff[lane] = along.roundOff;
+	pack.friction[lane] = c.friction;
+	pack.body1[lane] = indexOf(c.body1);
+	pack.body2[lane] = indexOf(c.body2);
+	pack.id[lane] = id;
 }
 
 /// Lays the awake contacts out anew, without those that carry nothing and separate by more than a tenth of the typical change of velocity.
@@ -81,44 +131,39 @@ void GrainOperator::letIdleSleep()
 	selected.clear();
 	collectTorques();
 	std::size_t idle = 0;
-	const auto sort = [&](std::int32_t id, bool carries, double Wnn) {
+	const auto sort = [&](const auto& pack, int lane, double Wnn) {
+		const std::int32_t id = pack.id[lane];
+		const RollingContact* rolling = rollingAt(id);
+		bool carries = rolling && rolling->carries();
+		for (int j = 0; j < 3; ++j) carries = carries || pack.impulse[j][lane] != 0 || pack.increment[j][lane] != 0 || pack.direction[j][lane] != 0;
 		const double u = normalVelocity(contacts[id]) + contacts[id].gapVelocity;
 		if (carries || u <= 0.1 * std::sqrt(energy * Wnn))
 			selected.push_back(id);
 		else
 			++idle;
 	};
-	for (const BallPack& p : packs)
-		for (int k = 0; k < packLanes; ++k) {
-			if (p.id[k] < 0) continue;
-			bool carries = false;
-			for (int j = 0; j < 3; ++j) carries = carries || p.impulse[j][k] != 0 || p.increment[j][k] != 0 || p.direction[j][k] != 0;
-			const RollingContact* rolling = rollingAt(p.id[k]);
-			carries = carries || (rolling && rolling->carries());
-			sort(p.id[k], carries, stateOf(contacts[p.id[k]].body1).inverseMass + stateOf(contacts[p.id[k]].body2).inverseMass);
-		}
-	for (const GeneralContact& g : generals) {
-		const bool carriesTorque = g.rolling && g.rolling->carries();
-		sort(g.id, carriesTorque || !g.impulse.isZero(0) || !g.increment.isZero(0) || !g.direction.isZero(0), g.W(0, 0));
-	}
+	eachContact(packs, [&](const BallPack& p, int lane) {
+		const Contact& c = contacts[p.id[lane]];
+		sort(p, lane, stateOf(c.body1).inverseMass + stateOf(c.body2).inverseMass);
+	});
+	eachContact(generals, [&](const GeneralPack& g, int lane) { sort(g, lane, g.Wnn[lane]); });
 	if (5 * idle < awake) return; // not worth the move
 
 	place.assign(contacts.size(), -1);
-	oldGenerals.swap(generals);
 	courses.clear();
 	courses.reserve(awake);
-	for (const BallPack& p : packs)
-		for (int k = 0; k < packLanes; ++k) {
-			if (p.id[k] < 0) continue;
-			place[p.id[k]] = std::int32_t(courses.size());
-			courses.emplace_back();
-			for (int j = 0; j < 3; ++j) {
-				impulses[p.id[k]][j] = p.impulse[j][k]; // from where putBall() takes it
-				courses.back().increment[j] = p.increment[j][k];
-				courses.back().direction[j] = p.direction[j][k];
-			}
+	const auto keepCourse = [&](const auto& pack, int lane, double slidingRate) {
+		place[pack.id[lane]] = std::int32_t(courses.size());
+		courses.emplace_back();
+		for (int j = 0; j < 3; ++j) {
+			courses.back().impulse[j] = pack.impulse[j][lane];
+			courses.back().increment[j] = pack.increment[j][lane];
+			courses.back().direction[j] = pack.direction[j][lane];
 		}
-	for (std::size_t i = 0; i < oldGenerals.size(); ++i) place[oldGenerals[i].id] = std::int32_t(i);
+		courses.back().slidingRate = slidingRate;
+	};
+	eachContact(packs, [&](const BallPack& p, int lane) { keepCourse(p, lane, 0); });
+	eachContact(generals, [&](const GeneralPack& g, int lane) { keepCourse(g, lane, g.slidingRate[lane]); });
 	std::sort(selected.begin(), selected.end());
 	std::size_t next = 0;
 	for (std::size_t id = 0; id < contacts.size(); ++id) {
@@ -128,24 +173,19 @@ void GrainOperator::letIdleSleep()
 		else
 			putSleeper(std::int32_t(id));
 	}
-	packs.clear();
-	rollingPacks.clear();
-	generals.clear();
-	passes.clear();
-	jobs.clear();
-	chunks.clear();
-	awake = 0;
+	forgetLayout();
 	layOut(selected);
-	for (BallPack& p : packs)
-		for (int k = 0; k < packLanes; ++k) {
-			if (p.id[k] < 0) continue;
-			const Course& course = courses[place[p.id[k]]];
-			for (int j = 0; j < 3; ++j) {
-				p.increment[j][k] = course.increment[j];
-				p.direction[j][k] = course.direction[j];
-			}
+	const auto goOn = [&](auto& pack, int lane) {
+		const Course& course = courses[place[pack.id[lane]]];
+		for (int j = 0; j < 3; ++j) {
+			pack.impulse[j][lane] = course.impulse[j];
+			pack.increment[j][lane] = course.increment[j];
+			pack.direction[j][lane] = course.direction[j];
 		}
-	for (GeneralContact& g : generals) g = oldGenerals[place[g.id]];
+		return course.slidingRate;
+	};
+	eachContact(packs, goOn);
+	eachContact(generals, [&](GeneralPack& g, int lane) { g.slidingRate[lane] = goOn(g, lane); });
 }
 
 } // namespace contactdynamics

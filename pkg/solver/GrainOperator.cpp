@@ -29,6 +29,7 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 		its.inverseInertia = bodies[i].inverseInertia(0, 0);
 	});
 	state.back() = {}; // what lanes without a contact refer to
+	takeMobilities();
 	impulses.resize(contacts.size());
 	inRuns(contacts.size(), [&](std::size_t i) {
 		const Contact& c = contacts[i];
@@ -81,15 +82,9 @@ void GrainOperator::beginAtImpulses()
 	mustWake.resize(contacts.size());
 	inRuns(contacts.size(), [&](std::size_t i) { mustWake[i] = -closing[i] <= fastest || !impulses[i].isZero(0); });
 	const bool small = contacts.size() <= 64;
-	packs.clear();
-	rollingPacks.clear();
-	generals.clear();
-	passes.clear();
-	jobs.clear();
-	chunks.clear();
+	forgetLayout();
 	sleepers.clear();
 	selected.clear();
-	awake = 0;
 	for (std::size_t i = 0; i < contacts.size(); ++i) {
 		if (small || mustWake[i])
 			selected.push_back(std::int32_t(i));
@@ -144,11 +139,11 @@ void GrainOperator::visit(const Chunk& chunk, SweepNorms& norms, Extrapolation b
 	if (accelerated) extrapolate(by, chunk.firstSeat, chunk.lastSeat);
 	norms = chunk.packs ? kernels.sweep(state.data(), packs.data() + chunk.firstPack, rollingFrom(chunk.firstPack), chunk.packs, by, field)
 						: SweepNorms{};
-	for (std::size_t k = chunk.firstGeneral; k < chunk.firstGeneral + chunk.generals; ++k) {
-		const SweepNorms one = contactdynamics::visit(generals[k], state.data(), by, field);
-		norms.increment2 += one.increment2;
-		norms.impulse2 += one.impulse2;
-	}
+	if (chunk.generals == 0) return;
+	const SweepNorms rest = kernels.sweepGeneral(state.data(), mobilities.data(), generals.data() + chunk.firstGeneral,
+												 rollingGeneralsFrom(chunk.firstGeneral), chunk.generals, by, field);
+	norms.increment2 += rest.increment2;
+	norms.impulse2 += rest.impulse2;
 }
 
 SweepNorms GrainOperator::sweep(Extrapolation by)

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "BallKernels.hpp"
+#include "ContactKernels.hpp"
 #include "BodyTree.hpp"
 #include "Colouring.hpp"
 #include "Crew.hpp"
 #include "CrushedContacts.hpp"
-#include "GeneralContact.hpp"
+#include "LocalDelassus.hpp"
 #include "NaturalMap.hpp"
+#include "RollingContact.hpp"
 #include "SolveReport.hpp"
 
 #include <algorithm>
@@ -81,12 +82,12 @@ private:
 		bool closes = false;
 	};
 
-	struct Course { // of a ball contact, kept while the contacts are laid out anew
-		double increment[3], direction[3];
+	struct Course { // of a contact, kept while the contacts are laid out anew; impulses of balls in global axes
+		double impulse[3], increment[3], direction[3], slidingRate;
 	};
 
 	GrainProblem* problem = nullptr;
-	const BallKernels& kernels = widestBallKernels();
+	const ContactKernels& kernels = widestContactKernels();
 	bool accelerated = false;
 	int sweeps = 0;
 	Crew* crew = nullptr;
@@ -119,9 +120,10 @@ private:
 	BodyTree tree;
 	Colouring colouring;
 	std::vector<BallPack> packs;
-	std::vector<RollingPack> rollingPacks; // parallel to packs; empty where no contact has rolling friction
+	std::vector<GeneralPack> generals;
+	std::vector<RollingPack> rollingPacks, rollingGenerals; // parallel to packs and generals; empty where no contact has rolling friction
+	std::vector<BodyMobility> mobilities;					// by seat, as state; empty where all contacts are of balls
 	std::vector<Course> courses;
-	std::vector<GeneralContact> generals, oldGenerals;
 	std::vector<Pass> passes;
 	std::vector<Range> jobs; // of each shared pass those of the tree
 	std::array<Arrivals, 1 << mostLevels> arrivals;
@@ -187,6 +189,7 @@ private:
 	void startRolling();
 	void beginAtTorques();
 	RollingPack* rollingFrom(std::size_t pack) { return rollingContacts.empty() ? nullptr : rollingPacks.data() + pack; }
+	RollingPack* rollingGeneralsFrom(std::size_t pack) { return rollingContacts.empty() ? nullptr : rollingGenerals.data() + pack; }
 	void collectTorques();
 	void addTorque(const Contact& c, const Vector3& torque);
 	void takeSeats();
@@ -194,9 +197,20 @@ private:
 	void layOut(const std::vector<std::int32_t>& ids);
 	void colourNode(std::size_t node);
 	void fillNode(std::size_t node);
-	BallPack emptyPack() const;
+	template <class Pack> Pack emptyPack() const;
+	/// Calls visit(pack, lane) for each contact.
+	template <class Packs, class Visit> static void eachContact(Packs& packs, const Visit& visit)
+	{
+		for (auto& pack : packs)
+			for (int lane = 0; lane < packLanes; ++lane)
+				if (pack.id[lane] >= 0) visit(pack, lane);
+	}
 	void putBall(std::size_t at, int lane, std::int32_t id);
-	void putGeneral(GeneralContact& g, std::int32_t id);
+	void putGeneral(std::size_t at, int lane, std::int32_t id);
+	static Vector3 impulseOf(const BallPack& pack, int lane);
+	static Vector3 impulseOf(const GeneralPack& pack, int lane);
+	void takeMobilities();
+	void forgetLayout();
 	void putSleeper(std::int32_t id);
 	void letIdleSleep();
 	void extrapolate(Extrapolation by, std::size_t firstSeat, std::size_t lastSeat);
@@ -214,8 +228,7 @@ private:
 	void sumMoment();
 	Vector3 relativeVelocity(const Contact& c) const;
 	Matrix3 compliantDelassus(const Contact& c, const Matrix3& frame) const;
-	void certify(const RollingContact& rolling, const Contact& c, double normalImpulse, Sums& total) const;
-	void certify(const Contact& c, const Matrix3& frame, const Matrix3& W, const Vector3& r, Sums& total) const;
+	void certifyWithout(const Contact& c, Sums& total) const;
 };
 
 } // namespace contactdynamics

@@ -31,29 +31,23 @@ void GrainOperator::beginAtTorques()
 	}
 }
 
-/// From the packs, where the sweeps leave those of balls, to where those of the other contacts are.
+/// From the packs, where the sweeps leave them.
 void GrainOperator::collectTorques()
 {
-	inRuns(rollingPacks.size(), [&](std::size_t i) {
-		for (int lane = 0; lane < packLanes; ++lane)
-			if (RollingContact* rolling = packs[i].id[lane] < 0 ? nullptr : rollingAt(packs[i].id[lane])) rolling->take(rollingPacks[i], lane);
-	});
+	const auto take = [this](const auto& from, const std::vector<RollingPack>& torques) {
+		inRuns(torques.size(), [&](std::size_t i) {
+			for (int lane = 0; lane < packLanes; ++lane)
+				if (RollingContact* rolling = from[i].id[lane] < 0 ? nullptr : rollingAt(from[i].id[lane])) rolling->take(torques[i], lane);
+		});
+	};
+	take(packs, rollingPacks);
+	take(generals, rollingGenerals);
 }
 
 void GrainOperator::addTorque(const Contact& c, const Vector3& torque)
 {
 	if (movable[c.body1]) angularVelocity(stateOf(c.body1)) -= problem->bodies[c.body1].inverseInertia * torque;
 	if (movable[c.body2]) angularVelocity(stateOf(c.body2)) += problem->bodies[c.body2].inverseInertia * torque;
-}
-
-/// Adds the torque of one contact to the sums, see NaturalMap.hpp. Round-off needs no bound here, because torques do not grow beyond their limits.
-void GrainOperator::certify(const RollingContact& rolling, const Contact& c, double normalImpulse, Sums& total) const
-{
-	const Vector3 &w1 = angularVelocity(stateOf(c.body1)), &w2 = angularVelocity(stateOf(c.body2));
-	const Vector3 F = rolling.torque - rolling.improved(rolling.torque, w2 - w1, c.normal, normalImpulse);
-	const double speeds = w1.cwiseAbs().sum() + w2.cwiseAbs().sum() + rolling.drive.cwiseAbs().sum();
-	const bool isRoundOff = F.norm() <= rolling.inverseMobility * roundOffOf(speeds);
-	total.residual.add(isRoundOff ? 0 : rolling.mobility * F.squaredNorm(), rolling.mobility * rolling.torque.squaredNorm());
 }
 
 } // namespace contactdynamics

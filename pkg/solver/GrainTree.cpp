@@ -68,9 +68,12 @@ void GrainOperator::layOut(const std::vector<std::int32_t>& ids)
 	}
 	pass.lastChunk = chunks.size();
 	passes.push_back(pass);
-	packs.resize(packCount, emptyPack());
-	if (!rollingContacts.empty()) rollingPacks.resize(packCount, RollingPack{});
-	generals.resize(generalCount);
+	packs.resize(packCount, emptyPack<BallPack>());
+	generals.resize(generalCount, emptyPack<GeneralPack>());
+	if (!rollingContacts.empty()) {
+		rollingPacks.resize(packCount, RollingPack{});
+		rollingGenerals.resize(generalCount, RollingPack{});
+	}
 	share(tree.nodes(), [&](std::size_t n) { fillNode(n); });
 	awake += ids.size();
 }
@@ -89,10 +92,8 @@ void GrainOperator::colourNode(std::size_t node)
 	Chunk& chunk = nodeChunks[node];
 	chunk.packs = chunk.generals = 0;
 	for (int kind = 0; kind < kinds; ++kind) {
-		if (kind % 2 == 0)
-			chunk.packs += (next[kind + 1] + Colouring::lanes(kind / 2) - 1) / Colouring::lanes(kind / 2);
-		else
-			chunk.generals += next[kind + 1];
+		const std::size_t lanes = Colouring::lanes(kind / 2);
+		(kind % 2 == 0 ? chunk.packs : chunk.generals) += (next[kind + 1] + lanes - 1) / lanes;
 	}
 	next[0] = first;
 	for (int kind = 0; kind < kinds; ++kind) next[kind + 1] += next[kind];
@@ -110,19 +111,19 @@ void GrainOperator::colourNode(std::size_t node)
 void GrainOperator::fillNode(std::size_t node)
 {
 	const Chunk& chunk = nodeChunks[node];
-	std::size_t pack = chunk.firstPack, general = chunk.firstGeneral, lane = 0;
+	std::size_t next[]{chunk.firstPack, chunk.firstGeneral}; // pack of each sort
+	std::size_t at = 0, lane = 0;
 	int before = -1;
 	for (std::size_t i = firstOfNode[node]; i < std::size_t(firstOfNode[node + 1]); ++i) {
-		const int kind = colourOf[i];
-		if (kind % 2 == 1) {
-			putGeneral(generals[general++], order[i]);
-			continue;
-		}
-		if (before >= 0 && (kind != before || lane == Colouring::lanes(kind / 2))) {
-			++pack;
+		const int kind = colourOf[i], isGeneral = kind % 2;
+		if (kind != before || lane == Colouring::lanes(kind / 2)) {
+			at = next[isGeneral]++;
 			lane = 0;
 		}
-		putBall(pack, int(lane++), order[i]);
+		if (isGeneral)
+			putGeneral(at, int(lane++), order[i]);
+		else
+			putBall(at, int(lane++), order[i]);
 		before = kind;
 	}
 }

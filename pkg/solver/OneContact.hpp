@@ -2,6 +2,7 @@
 #pragma once
 
 #include "GrainProblem.hpp"
+#include "PrincipalContact.hpp"
 
 namespace contactdynamics {
 
@@ -27,24 +28,17 @@ public:
 	Vector3 solve(const Vector3& b, double mu) const;
 
 	/// The same, for visits that follow each other.
-	/// @param rate  in: sliding rate k of the last visit, where the search begins, 0: unknown; out: that of this visit, left alone unless it slides
+	/// @param rate  see solve() of PrincipalContact.hpp
 	Vector3 solve(const Vector3& b, double mu, double& rate) const;
 
-private:
-	double Wnn = 0, inverseWnn = 0;			   // [1/kg], [kg]
-	double cosine = 1, sine = 0;			   // eigenvectors of A: (cosine, sine), (-sine, cosine)
-	double wLarge = 0, wSmall = 0;			   // w along them
-	double largeEigen = 0, smallEigen = 0;	   // of A, >= 0
-	double inverseLarge = 0, inverseSmall = 0; // 0 for 0
-	double roundOff = 0;					   // of A [1/kg]
+	/// W along the eigenvectors of A.
+	const PrincipalContact& principal() const { return along; }
+	/// The frame turned about its normal: the tangents are the eigenvectors, that of the larger eigenvalue first.
+	Matrix3 principalFrame(const Matrix3& frame) const;
 
-	/// What pushes the contact: b_n, c along the eigenvectors, mu / W_nn.
-	struct Pushed {
-		double normal, large, small, ratio;
-	};
-	struct Sliding;
-	Sliding slideAt(double k, const Pushed& pushed) const;
-	double slidingRate(const Pushed& pushed, double guess) const;
+private:
+	PrincipalContact along;
+	double cosine = 1, sine = 0; // eigenvectors of A: (cosine, sine), (-sine, cosine)
 };
 
 } // namespace contactdynamics

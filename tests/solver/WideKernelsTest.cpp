@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Kernels that exist for wide and for plain instructions: the same bits from both, and nothing that is not finite gets lost in a mask.
-#include "pkg/solver/BallKernels.hpp"
 #include "pkg/solver/BlockRows.hpp"
+#include "pkg/solver/ContactKernels.hpp"
+#include "pkg/solver/LocalDelassus.hpp"
+#include "pkg/solver/OneContact.hpp"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <cmath>
 #include <cstring>
@@ -90,8 +93,8 @@ constexpr RoundOff roundOff{16 * std::numeric_limits<double>::epsilon(), 1e-10};
 
 CertificateSums certified(const Balls& balls, bool rolls = false)
 {
-	return ballKernelsBaseline.certify(balls.bodies.data(), balls.packs.data(), rolls ? balls.rolling.data() : nullptr, balls.packs.size(), roundOff,
-									   nullptr);
+	return contactKernelsBaseline.certify(balls.bodies.data(), balls.packs.data(), rolls ? balls.rolling.data() : nullptr, balls.packs.size(),
+										  roundOff, nullptr);
 }
 
 struct Kind {
@@ -101,12 +104,120 @@ struct Kind {
 };
 constexpr Kind kinds[] = {{false, false}, {true, false}, {false, true}, {true, true}};
 
+/// General contacts of bodies with any inertia in packs like those of Balls; in two packs all move in the plane x, y. Random velocities, so that some
+/// open, some stick, and some slide, with a guess of the rate and without.
+struct Generals {
+	Balls balls;
+	std::vector<Body> given = std::vector<Body>(bodyCount + 1);
+	std::vector<BodyMobility> mobilities = std::vector<BodyMobility>(bodyCount + 1);
+	std::vector<GeneralPack> packs = std::vector<GeneralPack>(packCount);
+
+	explicit Generals(unsigned seed) : balls(seed)
+	{
+		std::mt19937_64 random(seed);
+		std::normal_distribution<double> normal;
+		const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+		std::memset(static_cast<void*>(packs.data()), 0, packs.size() * sizeof(GeneralPack)); // padding, too
+		for (std::size_t i = 0; i < bodyCount; ++i) {
+			const Matrix3 root = Matrix3::NullaryExpr([&] { return normal(random); });
+			given[i] = {Vector3::Zero(), Vector3::Zero(), vector().cwiseAbs(), root * root.transpose()};
+			if (isPlane(i / (2 * packLanes))) {
+				given[i].inverseMass[2] = 0;
+				given[i].inverseInertia.setZero();
+				given[i].inverseInertia(2, 2) = 1;
+				balls.bodies[i].velocity[2] = balls.bodies[i].angularVelocity[0] = balls.bodies[i].angularVelocity[1] = 0;
+			}
+			const Matrix3& inertia = given[i].inverseInertia;
+			balls.bodies[i].inverseMass = given[i].inverseMass[0];
+			balls.bodies[i].inverseInertia = inertia(0, 0);
+			mobilities[i] = {given[i].inverseMass[1], given[i].inverseMass[2], {inertia(0, 0), inertia(1, 1), inertia(2, 2)},
+							 inertia(1, 2),			  inertia(2, 0),		   inertia(0, 1)};
+		}
+		for (std::size_t i = 0; i < packs.size(); ++i)
+			for (int lane = 0; lane < packLanes; ++lane) {
+				GeneralPack& p = packs[i];
+				p.id[lane] = balls.packs[i].id[lane];
+				p.body1[lane] = balls.packs[i].body1[lane];
+				p.body2[lane] = balls.packs[i].body2[lane];
+				if (p.id[lane] < 0) continue;
+				Contact c;
+				c.normal = vector();
+				c.arm1 = vector();
+				c.arm2 = vector();
+				if (isPlane(i)) c.normal[2] = c.arm1[2] = c.arm2[2] = 0;
+				c.normal.normalize();
+				const Vector3 compliance = lane == 3 ? Vector3(0.2, 0.1, 0.1) : Vector3(Vector3::Zero());
+				Matrix3 frame = contactFrame(c.normal), W = localDelassus(body(p.body1[lane]), body(p.body2[lane]), c, frame);
+				W.diagonal() += compliance;
+				const OneContact one(W);
+				frame = one.principalFrame(frame);
+				for (int k = 0; k < 3; ++k) {
+					p.normal[k][lane] = frame(0, k);
+					p.tangent[k][lane] = frame(1, k);
+					p.arm1[k][lane] = c.arm1[k];
+					p.arm2[k][lane] = c.arm2[k];
+					p.offset[k][lane] = isPlane(i) && k == 2 ? 0 : normal(random);
+					p.impulse[k][lane] = lane == 2 && i % 3 ? 0 : normal(random);
+					p.increment[k][lane] = normal(random);
+					p.direction[k][lane] = normal(random);
+				}
+				p.normalCompliance[lane] = compliance[0];
+				p.tangentialCompliance[lane] = compliance[1];
+				p.Wnn[lane] = one.principal().Wnn;
+				p.wLarge[lane] = one.principal().wLarge;
+				p.wSmall[lane] = one.principal().wSmall;
+				p.largeEigen[lane] = one.principal().largeEigen;
+				p.smallEigen[lane] = one.principal().smallEigen;
+				p.roundOff[lane] = one.principal().roundOff;
+				p.friction[lane] = i % 4 ? 2 * std::abs(normal(random)) : 0;
+				p.slidingRate[lane] = lane % 2 ? std::abs(normal(random)) : 0;
+			}
+	}
+
+	static bool isPlane(std::size_t pack) { return pack % 5 == 3; }
+	/// One that cannot move has no mobilities in W.
+	Body body(std::int32_t index) const
+	{
+		return index < 0 ? Body{Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Matrix3::Zero()} : given[index];
+	}
+
+	SweepNorms sweep(const ContactKernels& kernels, const Kind& kind, Extrapolation by = {0.4, 0.2})
+	{
+		return kernels.sweepGeneral(balls.bodies.data(), mobilities.data(), packs.data(), kind.rolling(balls), packs.size(), by, kind.field(balls));
+	}
+	void rebuild(const ContactKernels& kernels, const Kind& kind)
+	{
+		kernels.rebuildGeneral(balls.bodies.data(), mobilities.data(), packs.data(), kind.rolling(balls), packs.size(), kind.field(balls));
+	}
+	CertificateSums certified(const ContactKernels& kernels, const Kind& kind)
+	{
+		return kernels.certifyGeneral(balls.bodies.data(), mobilities.data(), packs.data(), kind.rolling(balls), packs.size(), roundOff,
+									  kind.withField ? balls.field.gradient : nullptr);
+	}
+	/// Velocity of body 2 relative to body 1 at the contact, along the rows of its frame, with what is added to it.
+	Vector3 velocityOf(const GeneralPack& p, int lane) const
+	{
+		const auto column = [lane](const double(&of)[3][packLanes]) { return Vector3(of[0][lane], of[1][lane], of[2][lane]); };
+		const auto at = [&](std::int32_t index, const Vector3& arm) -> Vector3 {
+			const BodyState& b = balls.bodies[index < 0 ? ~index : index];
+			const Vector3 v(b.velocity[0], b.velocity[1], b.velocity[2]), w(b.angularVelocity[0], b.angularVelocity[1], b.angularVelocity[2]);
+			return v + w.cross(arm);
+		};
+		const Vector3 n = column(p.normal), t = column(p.tangent);
+		Matrix3 frame;
+		frame << n.transpose(), t.transpose(), n.cross(t).transpose();
+		const Vector3 compliance(p.normalCompliance[lane], p.tangentialCompliance[lane], p.tangentialCompliance[lane]);
+		return frame * (at(p.body2[lane], column(p.arm2)) - at(p.body1[lane], column(p.arm1))) + column(p.offset) +
+			   compliance.cwiseProduct(column(p.impulse));
+	}
+};
+
 /// Calls check(kernels) for all versions but the plainest that this machine can run.
 template <class Check> void forWiderKernels(const Check& check)
 {
-	for (int version = 1; version < ballKernelVersions; ++version) {
+	for (int version = 1; version < contactKernelVersions; ++version) {
 		SCOPED_TRACE("version " + std::to_string(version));
-		if (const BallKernels* kernels = ballKernels(version)) check(*kernels);
+		if (const ContactKernels* kernels = contactKernels(version)) check(*kernels);
 	}
 }
 
@@ -157,13 +268,13 @@ template <int D> void expectSameProducts(BlockProduct plain, BlockProduct wide)
 
 TEST(WideKernels, BallSweepHasTheBitsOfThePlainOne)
 {
-	forWiderKernels([](const BallKernels& kernels) {
+	forWiderKernels([](const ContactKernels& kernels) {
 		for (const Kind& kind : kinds) {
 			Balls one(9), two = one;
 			const auto sweep = [&](BallSweep kernel, Balls& of) {
 				return kernel(of.bodies.data(), of.packs.data(), kind.rolling(of), of.packs.size(), {0.4, 0.2}, kind.field(of));
 			};
-			const SweepNorms plain = sweep(ballKernelsBaseline.sweep, one), wide = sweep(kernels.sweep, two);
+			const SweepNorms plain = sweep(contactKernelsBaseline.sweep, one), wide = sweep(kernels.sweep, two);
 			EXPECT_TRUE(sameBytes(plain, wide));
 			EXPECT_GT(plain.increment2, 0);
 			EXPECT_TRUE(sameBytes(one.field, two.field));
@@ -174,13 +285,13 @@ TEST(WideKernels, BallSweepHasTheBitsOfThePlainOne)
 
 TEST(WideKernels, BallCertificateHasTheBitsOfThePlainOne)
 {
-	forWiderKernels([](const BallKernels& kernels) {
+	forWiderKernels([](const ContactKernels& kernels) {
 		for (const Kind& kind : kinds) {
 			Balls one(10), two = one;
 			const auto rebuild = [&](BallRebuild kernel, Balls& of) {
 				kernel(of.bodies.data(), of.packs.data(), kind.rolling(of), of.packs.size(), kind.field(of));
 			};
-			rebuild(ballKernelsBaseline.rebuild, one);
+			rebuild(contactKernelsBaseline.rebuild, one);
 			rebuild(kernels.rebuild, two);
 			EXPECT_TRUE(sameBytes(one.field, two.field));
 			EXPECT_TRUE(sameBytes(one.bodies, two.bodies));
@@ -188,21 +299,83 @@ TEST(WideKernels, BallCertificateHasTheBitsOfThePlainOne)
 				const double* gradient = kind.withField ? one.field.gradient : nullptr;
 				return kernel(one.bodies.data(), one.packs.data(), kind.rolling(one), one.packs.size(), roundOff, gradient);
 			};
-			const CertificateSums plain = certify(ballKernelsBaseline.certify), wide = certify(kernels.certify);
+			const CertificateSums plain = certify(contactKernelsBaseline.certify), wide = certify(kernels.certify);
 			EXPECT_TRUE(sameBytes(plain, wide));
 			EXPECT_GT(plain.map2, 0);
 		}
 	});
 }
 
+TEST(WideKernels, GeneralContactsHaveTheBitsOfThePlainOnes)
+{
+	forWiderKernels([](const ContactKernels& kernels) {
+		for (const Kind& kind : kinds) {
+			Generals one(9), two = one;
+			const SweepNorms plain = one.sweep(contactKernelsBaseline, kind), wide = two.sweep(kernels, kind);
+			EXPECT_TRUE(sameBytes(plain, wide));
+			EXPECT_GT(plain.increment2, 0);
+			one.rebuild(contactKernelsBaseline, kind);
+			two.rebuild(kernels, kind);
+			EXPECT_TRUE(sameBytes(one.balls.field, two.balls.field) && sameBytes(one.balls.rolling, two.balls.rolling));
+			EXPECT_TRUE(sameBytes(one.balls.bodies, two.balls.bodies) && sameBytes(one.packs, two.packs));
+			const CertificateSums sums = one.certified(contactKernelsBaseline, kind);
+			EXPECT_TRUE(sameBytes(sums, two.certified(kernels, kind)));
+			EXPECT_GT(sums.map2, 0);
+		}
+	});
+}
+
+// After its visit a contact obeys Signorini's condition and Coulomb's law. Where the search ends, what is left of |r_t| - mu r_n is of the order of
+// the square of 1e-3 |r_t|, and u_N is W_NN / mu times that at most; all else is round-off of sums of speeds and impulses of some units.
+TEST(WideKernels, VisitOfAGeneralContactObeysTheLaw)
+{
+	int open = 0, stick = 0, slide = 0;
+	for (unsigned seed = 0; seed < 100; ++seed) {
+		Generals generals(seed);
+		generals.sweep(contactKernelsBaseline, {});
+		if (seed % 2) { // once more, not far from there: the rates found are good guesses
+			for (BodyState& body : generals.balls.bodies)
+				for (int k = 0; k < 2; ++k) body.velocity[k] *= 1.1;
+			generals.sweep(contactKernelsBaseline, {}, {});
+		}
+		for (const GeneralPack& p : generals.packs)
+			for (int lane = 0; lane < packLanes; ++lane) {
+				if (p.id[lane] < 0) continue;
+				const Vector3 u = generals.velocityOf(p, lane);
+				const double rn = p.impulse[0][lane], rt = std::hypot(p.impulse[1][lane], p.impulse[2][lane]), limit = p.friction[lane] * rn;
+				const double round = 1e-10 * (1 + u.norm()), ofSearch = 1e-5 * p.Wnn[lane] * rn;
+				if (rn == 0) {
+					++open;
+					EXPECT_GE(u[0], -round);
+					EXPECT_EQ(rt, 0);
+					continue;
+				}
+				EXPECT_GT(rn, 0);
+				EXPECT_NEAR(u[0], 0, round + ofSearch);
+				if (rt < limit * (1 - 1e-9)) {
+					++stick;
+					EXPECT_NEAR(u.tail<2>().norm(), 0, round);
+					continue;
+				}
+				++slide;
+				EXPECT_NEAR(rt, limit, 1e-12 * rn);
+				// Against the impulse: u_t = -k r_t.
+				EXPECT_NEAR(u[1] * p.impulse[1][lane] + u[2] * p.impulse[2][lane], -u.tail<2>().norm() * rt, 1e-7 * (1 + u.norm()) * (rt + 1e-9));
+			}
+	}
+	EXPECT_GT(open, 100);
+	EXPECT_GT(stick, 100);
+	EXPECT_GT(slide, 100);
+}
+
 TEST(WideKernels, BodyAdvanceHasTheBitsOfThePlainOne)
 {
-	forWiderKernels([](const BallKernels& kernels) {
+	forWiderKernels([](const ContactKernels& kernels) {
 		Balls one(11), start(12), direction(13), two = one, sameStart = start, sameDirection = direction;
 		const auto advance = [](BodyAdvance kernel, Balls& now, Balls& before, Balls& along) {
 			kernel(now.bodies.data(), before.bodies.data(), along.bodies.data(), now.bodies.size(), {0.4, 0.2});
 		};
-		advance(ballKernelsBaseline.advance, one, start, direction);
+		advance(contactKernelsBaseline.advance, one, start, direction);
 		advance(kernels.advance, two, sameStart, sameDirection);
 		EXPECT_TRUE(sameBytes(one.bodies, two.bodies) && sameBytes(start.bodies, sameStart.bodies));
 		EXPECT_TRUE(sameBytes(direction.bodies, sameDirection.bodies));
@@ -239,4 +412,29 @@ TEST(WideKernels, WhatIsNotFiniteNeverPassesAsSmall)
 					EXPECT_FALSE(std::isfinite(certified(balls, true).map2)) << poison << ", torque " << lane << " of pack " << pack;
 				}
 		}
+}
+
+TEST(WideKernels, WhatIsNotFiniteNeverPassesAsSmallAmongGeneralContacts)
+{
+	constexpr Kind plain{}, rolls{false, true};
+	const ContactKernels& kernels = widestContactKernels();
+	ASSERT_TRUE(std::isfinite(Generals(14).certified(kernels, plain).map2) && std::isfinite(Generals(14).certified(kernels, rolls).map2));
+	for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()})
+		for (int k = 0; k < 3; ++k)
+			for (int pack = 0; pack < packCount; ++pack)
+				for (int lane = 0; lane < packLanes; ++lane) {
+					if (isEmptyLane(std::size_t(pack), lane)) continue;
+					for (double(BodyState::*part)[3] : {&BodyState::velocity, &BodyState::angularVelocity})
+						for (int side = 0; side < 2; ++side) {
+							Generals generals(14);
+							(generals.balls.bodies[2 * (packLanes * pack + lane) + side].*part)[k] = poison;
+							EXPECT_FALSE(std::isfinite(generals.certified(kernels, plain).map2)) << poison << ", side " << side << " of " << lane;
+						}
+					Generals generals(14);
+					generals.packs[pack].impulse[k][lane] = poison;
+					EXPECT_FALSE(std::isfinite(generals.certified(kernels, plain).map2)) << poison << ", contact " << lane << " of pack " << pack;
+					generals = Generals(14);
+					generals.balls.rolling[pack].torque[k][lane] = poison;
+					EXPECT_FALSE(std::isfinite(generals.certified(kernels, rolls).map2)) << poison << ", torque " << lane << " of pack " << pack;
+				}
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Ball contacts in the lanes of wide numbers, WIDE_LANES at a time: what the kernels of BallSweep.inl and BallCertificate.inl have in common.
+// Contacts in the lanes of wide numbers, WIDE_LANES at a time: what all kernels have in common.
 #pragma once
 
 #include "BallPack.hpp"
@@ -21,6 +21,14 @@ inline Wide squareRoot(Wide a)
 	Wide r;
 	for (int i = 0; i < WIDE_LANES; ++i) r[i] = __builtin_sqrt(a[i]);
 	return r;
+}
+
+inline Wide magnitude(Wide a) { return (Wide)((Lanes)a & 0x7fffffffffffffff); }
+inline bool any(Lanes mask)
+{
+	long long found = 0;
+	for (int i = 0; i < WIDE_LANES; ++i) found |= mask[i];
+	return found != 0;
 }
 
 struct Vector {
@@ -69,6 +77,11 @@ inline const BodyState* at(const BodyState* bodies, std::int32_t i) { return bod
 inline const double* numbersOf(const BodyState* body) { return reinterpret_cast<const double*>(body); }
 inline double* numbersOf(BodyState* body) { return reinterpret_cast<double*>(body); }
 
+inline const double* lineOf(const double* lines, std::int32_t i) { return lines + 8 * std::ptrdiff_t(i < 0 ? ~i : i); }
+struct Columns {
+	Wide of[8];
+};
+
 #if WIDE_LANES == 8
 
 /// Rows to columns.
@@ -91,13 +104,14 @@ inline void transpose(Wide* row)
 	}
 }
 
-inline Side gather(const BodyState* bodies, const std::int32_t* index)
+/// The lines of eight numbers with these indices, by columns.
+inline Columns gatherLines(const double* lines, const std::int32_t* index)
 {
-	Wide row[8];
+	Columns lane;
 #pragma GCC unroll 8
-	for (int i = 0; i < 8; ++i) row[i] = load(numbersOf(at(bodies, index[i])));
-	transpose(row);
-	return {{row[0], row[1], row[2]}, {row[4], row[5], row[6]}, row[3], row[7]};
+	for (int i = 0; i < 8; ++i) lane.of[i] = load(lineOf(lines, index[i]));
+	transpose(lane.of);
+	return lane;
 }
 
 inline void scatter(BodyState* bodies, const std::int32_t* index, const Side& side)
@@ -121,14 +135,13 @@ inline void transpose(Wide& a, Wide& b, Wide& c, Wide& d)
 	d = __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7);
 }
 
-inline Side gather(const BodyState* bodies, const std::int32_t* index)
+inline Columns gatherLines(const double* lines, const std::int32_t* index)
 {
-	const BodyState *b0 = at(bodies, index[0]), *b1 = at(bodies, index[1]), *b2 = at(bodies, index[2]), *b3 = at(bodies, index[3]);
-	Wide a = load(b0->velocity), b = load(b1->velocity), c = load(b2->velocity), d = load(b3->velocity);
-	Wide e = load(b0->angularVelocity), f = load(b1->angularVelocity), g = load(b2->angularVelocity), h = load(b3->angularVelocity);
-	transpose(a, b, c, d);
-	transpose(e, f, g, h);
-	return {{a, b, c}, {e, f, g}, d, h};
+	const double *l0 = lineOf(lines, index[0]), *l1 = lineOf(lines, index[1]), *l2 = lineOf(lines, index[2]), *l3 = lineOf(lines, index[3]);
+	Columns lane{{load(l0), load(l1), load(l2), load(l3), load(l0 + 4), load(l1 + 4), load(l2 + 4), load(l3 + 4)}};
+	transpose(lane.of[0], lane.of[1], lane.of[2], lane.of[3]);
+	transpose(lane.of[4], lane.of[5], lane.of[6], lane.of[7]);
+	return lane;
 }
 
 inline void scatter(BodyState* bodies, const std::int32_t* index, const Side& side)
@@ -145,6 +158,12 @@ inline void scatter(BodyState* bodies, const std::int32_t* index, const Side& si
 }
 
 #endif
+
+inline Side gather(const BodyState* bodies, const std::int32_t* index)
+{
+	const Columns lane = gatherLines(numbersOf(bodies), index);
+	return {{lane.of[0], lane.of[1], lane.of[2]}, {lane.of[4], lane.of[5], lane.of[6]}, lane.of[3], lane.of[7]};
+}
 
 template <bool forWriting> void prefetchBodies(const BodyState* bodies, const BallPack& pack)
 {
@@ -169,6 +188,18 @@ inline Vector improvedTorque(const RollingPack& rolling, int lane, const Vector&
 	return along * n + (length2 > limit * limit ? slip : all(1)) * across;
 }
 
+/// One visit of the torques of RollingContact.hpp; returns how they change.
+inline Vector visitTorque(RollingPack& rolling, int lane, Wide relax, Wide momentum, const Vector& spin, const Vector& n, Wide normalImpulse)
+{
+	const Vector last = load(rolling.increment, lane), ahead = relax * last + momentum * load(rolling.direction, lane);
+	const Vector before = load(rolling.torque, lane) + ahead, torque = improvedTorque(rolling, lane, before, spin, n, normalImpulse);
+	const Vector change = torque - before;
+	store(rolling.direction, lane, last + ahead);
+	store(rolling.torque, lane, torque);
+	store(rolling.increment, lane, change);
+	return change;
+}
+
 /// Over the lanes of a pack, in one order for all versions.
 inline double sum(const Wide* part)
 {
@@ -177,7 +208,7 @@ inline double sum(const Wide* part)
 }
 
 /// Lanes are filled in order.
-inline bool isEmpty(const BallPack& pack, int lane) { return lane > 0 && pack.id[lane] < 0; }
+template <class Pack> bool isEmpty(const Pack& pack, int lane) { return lane > 0 && pack.id[lane] < 0; }
 
 } // namespace
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "BallPack.hpp"
+#include "GeneralPack.hpp"
 
 namespace contactdynamics {
 
@@ -37,19 +37,30 @@ using BallRebuild = void (*)(BodyState* bodies, const BallPack* packs, const Rol
 using BallCertify = CertificateSums (*)(const BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count,
 										RoundOff roundOff, const double* gradient);
 
+/// The same three for general contacts, with W of any form. Mobilities are parallel to the bodies.
+using GeneralSweep = SweepNorms (*)(BodyState* bodies, const BodyMobility* mobilities, GeneralPack* packs, RollingPack* rolling, std::size_t count,
+									Extrapolation extrapolation, FieldPass* field);
+using GeneralRebuild = void (*)(BodyState* bodies, const BodyMobility* mobilities, const GeneralPack* packs, const RollingPack* rolling,
+								std::size_t count, FieldPass* field);
+using GeneralCertify = CertificateSums (*)(const BodyState* bodies, const BodyMobility* mobilities, const GeneralPack* packs,
+										   const RollingPack* rolling, std::size_t count, RoundOff roundOff, const double* gradient);
+
 /// One version of all of them. All versions give the same bits.
-struct BallKernels {
-	BallSweep sweep;
+struct ContactKernels {
 	BodyAdvance advance;
+	BallSweep sweep;
 	BallRebuild rebuild;
 	BallCertify certify;
+	GeneralSweep sweepGeneral;
+	GeneralRebuild rebuildGeneral;
+	GeneralCertify certifyGeneral;
 };
 
-constexpr int ballKernelVersions = 3; ///< for the baseline of the machine's family, for AVX2, for AVX-512
+constexpr int contactKernelVersions = 3; ///< for the baseline of the machine's family, for AVX2, for AVX-512
 /// Null where this machine, or the build, has no such version.
-const BallKernels* ballKernels(int version);
-const BallKernels& widestBallKernels();
+const ContactKernels* contactKernels(int version);
+const ContactKernels& widestContactKernels();
 
-extern const BallKernels ballKernelsBaseline, ballKernelsAvx2, ballKernelsAvx512;
+extern const ContactKernels contactKernelsBaseline, contactKernelsAvx2, contactKernelsAvx512;
 
 } // namespace contactdynamics

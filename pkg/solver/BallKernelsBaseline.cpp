@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-#define WIDE_LANES 4
-#define BALL_KERNELS ballKernelsBaseline
-#include "BallVersion.inl"
