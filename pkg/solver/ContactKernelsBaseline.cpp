@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#define WIDE_LANES 4
+#define WIDE_LANES 2
 #define CONTACT_KERNELS contactKernelsBaseline
 #include "KernelVersion.inl"

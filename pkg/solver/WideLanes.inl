@@ -123,7 +123,7 @@ inline void scatter(BodyState* bodies, const std::int32_t* index, const Side& si
 		if (index[i] >= 0) store(numbersOf(bodies + index[i]), row[i]);
 }
 
-#else
+#elif WIDE_LANES == 4
 
 inline void transpose(Wide& a, Wide& b, Wide& c, Wide& d)
 {
@@ -154,6 +154,31 @@ inline void scatter(BodyState* bodies, const std::int32_t* index, const Side& si
 		if (index[i] < 0) continue;
 		store(bodies[index[i]].velocity, v[i]);
 		store(bodies[index[i]].angularVelocity, w[i]);
+	}
+}
+
+#else
+
+inline Columns gatherLines(const double* lines, const std::int32_t* index)
+{
+	const double *l0 = lineOf(lines, index[0]), *l1 = lineOf(lines, index[1]);
+	Columns lane;
+#pragma GCC unroll 4
+	for (int k = 0; k < 8; k += 2) {
+		const Wide a = load(l0 + k), b = load(l1 + k);
+		lane.of[k] = __builtin_shufflevector(a, b, 0, 2);
+		lane.of[k + 1] = __builtin_shufflevector(a, b, 1, 3);
+	}
+	return lane;
+}
+
+inline void scatter(BodyState* bodies, const std::int32_t* index, const Side& side)
+{
+	const Wide lane[8]{side.v.x, side.v.y, side.v.z, side.inverseMass, side.w.x, side.w.y, side.w.z, side.inverseInertia};
+#pragma GCC unroll 4
+	for (int k = 0; k < 8; k += 2) {
+		if (index[0] >= 0) store(numbersOf(bodies + index[0]) + k, __builtin_shufflevector(lane[k], lane[k + 1], 0, 2));
+		if (index[1] >= 0) store(numbersOf(bodies + index[1]) + k, __builtin_shufflevector(lane[k], lane[k + 1], 1, 3));
 	}
 }
 
