@@ -18,7 +18,7 @@ template <bool forWriting> void fetchAhead(const BodyState* bodies, const BallPa
 }
 
 template <bool hasField, bool rolls>
-void rebuildOf(BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, FieldPass* field)
+__attribute__((flatten)) void rebuildOf(BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, FieldPass* field)
 {
 	Wide moment[9][parts]{};
 	for (const BallPack* pack = packs; pack != packs + count; ++pack) {
@@ -53,8 +53,8 @@ void rebuildPacks(BodyState* bodies, const BallPack* packs, const RollingPack* r
 	rebuild(bodies, packs, rolling, count, field);
 }
 
-template <bool hasField, bool rolls> CertificateSums certifyOf(const BodyState* bodies, const BallPack* packs, const RollingPack* rolling,
-															   std::size_t count, RoundOff roundOff, const double* gradient)
+template <bool hasField, bool rolls> __attribute__((flatten)) CertificateSums
+certifyOf(const BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, RoundOff roundOff, const double* gradient)
 {
 	const Wide zero = all(0), unit = all(1), most2 = all(roundOff.most * roundOff.most);
 	Wide map2[parts]{}, impulse2[parts]{}, approach = zero;

@@ -7,8 +7,8 @@ namespace contactdynamics {
 
 namespace {
 
-template <bool hasField, bool rolls>
-SweepNorms sweepOf(BodyState* bodies, BallPack* packs, RollingPack* rolling, std::size_t count, Extrapolation extrapolation, FieldPass* field)
+template <bool hasField, bool rolls> __attribute__((flatten)) SweepNorms sweepOf(BodyState* bodies, BallPack* packs, RollingPack* rolling,
+																				 std::size_t count, Extrapolation extrapolation, FieldPass* field)
 {
 	const Wide zero = all(0), relax = all(extrapolation.relax), momentum = all(extrapolation.momentum);
 	Wide increment2[parts]{}, impulse2[parts]{}, moment[9][parts]{};

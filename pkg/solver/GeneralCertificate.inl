@@ -26,8 +26,9 @@ template <bool forWriting> void fetchAhead(const BodyState* bodies, const BodyMo
 	for (std::size_t at = offsetof(GeneralPack, body1); at < sizeof(GeneralPack); at += line) __builtin_prefetch(next + at);
 }
 
-template <bool hasField, bool rolls> void rebuildGeneralOf(BodyState* bodies, const BodyMobility* mobilities, const GeneralPack* packs,
-														   const RollingPack* rolling, std::size_t count, FieldPass* field)
+template <bool hasField, bool rolls> __attribute__((flatten)) void rebuildGeneralOf(BodyState* bodies, const BodyMobility* mobilities,
+																					const GeneralPack* packs, const RollingPack* rolling,
+																					std::size_t count, FieldPass* field)
 {
 	Wide moment[9][parts]{};
 	for (const GeneralPack* pack = packs; pack != packs + count; ++pack) {
@@ -60,9 +61,9 @@ void rebuildGeneralPacks(BodyState* bodies, const BodyMobility* mobilities, cons
 	rebuild(bodies, mobilities, packs, rolling, count, field);
 }
 
-template <bool hasField, bool rolls> CertificateSums certifyGeneralOf(const BodyState* bodies, const BodyMobility* mobilities,
-																	  const GeneralPack* packs, const RollingPack* rolling, std::size_t count,
-																	  RoundOff roundOff, const double* gradient)
+template <bool hasField, bool rolls>
+__attribute__((flatten)) CertificateSums certifyGeneralOf(const BodyState* bodies, const BodyMobility* mobilities, const GeneralPack* packs,
+														  const RollingPack* rolling, std::size_t count, RoundOff roundOff, const double* gradient)
 {
 	const Wide zero = all(0), most2 = all(roundOff.most * roundOff.most);
 	Wide map2[parts]{}, impulse2[parts]{}, approach = zero;

@@ -79,8 +79,9 @@ inline Local solvedBy(GeneralPack& pack, int lane, const LocalW& W, const Local&
 	return r;
 }
 
-template <bool hasField, bool rolls> SweepNorms sweepGeneralOf(BodyState* bodies, const BodyMobility* mobilities, GeneralPack* packs,
-															   RollingPack* rolling, std::size_t count, Extrapolation by, FieldPass* field)
+template <bool hasField, bool rolls> __attribute__((flatten)) SweepNorms sweepGeneralOf(BodyState* bodies, const BodyMobility* mobilities,
+																						GeneralPack* packs, RollingPack* rolling, std::size_t count,
+																						Extrapolation by, FieldPass* field)
 {
 	const Wide relax = all(by.relax), momentum = all(by.momentum);
 	Wide increment2[parts]{}, impulse2[parts]{}, moment[9][parts]{};

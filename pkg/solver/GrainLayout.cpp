@@ -12,8 +12,10 @@ void GrainOperator::putSleeper(std::int32_t id)
 	const Contact& c = problem->contacts[id];
 	impulses[id].setZero();
 	if (RollingContact* rolling = rollingAt(id)) rolling->stop();
-	sleepers.push_back({c.normal, c.ball ? c.gapVelocity + c.imageVelocity.dot(c.normal) : c.gapVelocity, c.normal.dot(c.arm1 - c.arm2),
-						tree.seat[c.body1], tree.seat[c.body2], id, !c.ball});
+	const Vector3 branch = c.arm1 - c.arm2;
+	sleepers.push_back({c.normal, c.gapVelocity + c.imageVelocity.dot(c.normal), c.normal.dot(branch), tree.seat[c.body1], tree.seat[c.body2], id,
+						c.ball ? -1 : std::int32_t(turnings.size())});
+	if (!c.ball) turnings.push_back({c.arm1.cross(c.normal), c.arm2.cross(c.normal), branch});
 }
 
 template <class Pack> Pack GrainOperator::emptyPack() const

@@ -84,6 +84,7 @@ void GrainOperator::beginAtImpulses()
 	const bool small = contacts.size() <= 64;
 	forgetLayout();
 	sleepers.clear();
+	turnings.clear();
 	selected.clear();
 	for (std::size_t i = 0; i < contacts.size(); ++i) {
 		if (small || mustWake[i])
@@ -106,9 +107,12 @@ double GrainOperator::normalVelocity(const Contact& c) const
 
 double GrainOperator::normalVelocity(const Sleeper& s) const
 {
-	if (s.turns) return normalVelocity(problem->contacts[s.id]);
-	const double field = hasField() ? s.reach * s.normal.dot(gradient * s.normal) : 0;
-	return (velocity(state[s.body2]) - velocity(state[s.body1])).dot(s.normal) + field;
+	const BodyState &b1 = state[s.body1], &b2 = state[s.body2];
+	double u = (velocity(b2) - velocity(b1)).dot(s.normal);
+	if (s.turning < 0) return hasField() ? u + s.reach * s.normal.dot(gradient * s.normal) : u;
+	const Turning& its = turnings[s.turning];
+	u += angularVelocity(b2).dot(its.turn2) - angularVelocity(b1).dot(its.turn1);
+	return hasField() ? u + s.normal.dot(gradient * its.branch) : u;
 }
 
 void GrainOperator::keep()

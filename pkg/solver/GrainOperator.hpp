@@ -74,7 +74,11 @@ private:
 		double offset; // gap velocity plus image velocity along the normal
 		double reach;  // arms along the normal, body 1 minus body 2: what the mean field acts on
 		std::int32_t body1, body2, id;
-		bool turns; // the rotation of the bodies changes the normal velocity
+		std::int32_t turning; // where its Turning is, -1 for balls, whose rotation does not change the normal velocity
+	};
+	struct Turning {
+		Vector3 turn1, turn2; // arm x normal
+		Vector3 branch;		  // arm1 - arm2
 	};
 	struct Sums {
 		ResidualSum residual;
@@ -130,6 +134,7 @@ private:
 	std::vector<Chunk> chunks;
 	std::vector<SweepNorms> chunkNorms;
 	std::vector<Sleeper> sleepers;
+	std::vector<Turning> turnings;
 	std::vector<std::int32_t> place; // of a contact in the old layout
 	std::vector<std::int32_t> selected, colourOf, order, byNode, firstOfNode;
 	std::vector<Chunk> nodeChunks;
