@@ -8,7 +8,7 @@
 // compiled with wide instructions could be picked by the linker for a machine that has none.
 namespace contactdynamics {
 
-/// What a sweep reads and writes of one body, in one cache line. The mobilities are meaningful for bodies with ball contacts only.
+/// What a sweep reads and writes of one body, in one cache line. The mobilities are those of balls; of other bodies along x, see BodyMobility.
 struct alignas(64) BodyState {
 	double velocity[3];
 	double inverseMass;

@@ -17,7 +17,7 @@ class Colouring {
 public:
 	static constexpr int overflow = 64; ///< colour of the contacts of a body that has more than 64: these are visited one by one
 	static constexpr int colours = overflow + 1;
-	static constexpr std::size_t lanes(int colour) { return colour == overflow ? 1 : packLanes; } ///< balls of a colour that one pack may hold
+	static constexpr std::size_t lanes(int colour) { return colour == overflow ? 1 : packLanes; } ///< contacts of a colour that one pack may hold
 
 	/// Forgets everything; no memory is given back.
 	void reset(std::size_t bodies) { used.assign(bodies, 0); }

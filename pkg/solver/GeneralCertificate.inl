@@ -16,10 +16,14 @@ inline Wide dot(const Tangential& a, const Tangential& b) { return a.large * b.l
 inline Tangential chosen(Lanes mask, const Tangential& a, const Tangential& b) { return {mask ? a.large : b.large, mask ? a.small : b.small}; }
 
 /// Fetches the bodies that come next, and of the packs what is used here: not increment and direction.
+/// @param mobilities  null where they are not used
 template <bool forWriting> void fetchAhead(const BodyState* bodies, const BodyMobility* mobilities, const GeneralPack* pack, const GeneralPack* end)
 {
 	constexpr std::ptrdiff_t far = 2, near = 1, line = 64;
-	if (end - pack > near) prefetchBodies<forWriting>(bodies, mobilities, pack[near]);
+	if (end - pack > near) {
+		prefetchBodies<forWriting>(bodies, pack[near]);
+		if (mobilities) prefetchMobilities(mobilities, pack[near]);
+	}
 	if (end - pack <= far) return;
 	const char* next = reinterpret_cast<const char*>(pack + far);
 	for (std::size_t at = 0; at < offsetof(GeneralPack, increment); at += line) __builtin_prefetch(next + at);
@@ -69,10 +73,11 @@ __attribute__((flatten)) CertificateSums certifyGeneralOf(const BodyState* bodie
 	Wide map2[parts]{}, impulse2[parts]{}, approach = zero;
 	const Wide gradientSize = hasField ? sizeOf(gradient) : zero;
 	for (const GeneralPack* pack = packs; pack != packs + count; ++pack) {
-		fetchAhead<false>(bodies, mobilities, pack, packs + count);
+		fetchAhead<false>(bodies, hasField ? mobilities : nullptr, pack, packs + count);
 		for (int part = 0, lane = 0; part < parts; ++part, lane += WIDE_LANES) {
 			if (isEmpty(*pack, lane)) break;
-			const Side one = gather(bodies, pack->body1 + lane), two = gather(bodies, pack->body2 + lane);
+			// Where there is a mean field, the W of the visits is another one, see GrainOperator::startField().
+			const auto one = sideOf<hasField>(bodies, mobilities, pack->body1 + lane), two = sideOf<hasField>(bodies, mobilities, pack->body2 + lane);
 			const Frame frame = frameOf(*pack, lane);
 			const Vector arm1 = load(pack->arm1, lane), arm2 = load(pack->arm2, lane);
 			const Wide cn = load(pack->normalCompliance + lane), ct = load(pack->tangentialCompliance + lane);
@@ -81,10 +86,14 @@ __attribute__((flatten)) CertificateSums certifyGeneralOf(const BodyState* bodie
 							Local{cn * r.normal, ct * r.large, ct * r.small};
 			approach = largest(approach, -u.normal);
 
-			const Wide added = load(pack->addedMobility + lane);
-			const LocalW W = delassusOf(*pack, lane);
-			const Wide Wn = W.nn - added;
-			const auto energy = [&](const Local& a) { return W.energy(a) - added * (a.normal * a.normal + a.large * a.large + a.small * a.small); };
+			const auto energy = [&](const Local& a) {
+				if constexpr (hasField)
+					return energyOf(frame.inGlobal(a), arm1, arm2, one, two) + cn * a.normal * a.normal +
+						   ct * (a.large * a.large + a.small * a.small);
+				else
+					return delassusOf(*pack, lane).energy(a);
+			};
+			const Wide Wn = hasField ? energy({all(1), zero, zero}) : load(pack->Wnn + lane);
 			const ScaledMap<Tangential> f =
 					scaledMap(Wn, load(pack->friction + lane), r.normal, Tangential{r.large, r.small}, u.normal, Tangential{u.large, u.small});
 			const Wide f2 = f.n * f.n + dot(f.t, f.t);

@@ -77,12 +77,18 @@ inline GeneralSide gather(const BodyState* bodies, const BodyMobility* mobilitie
 	return {gather(bodies, index), m.of[0], m.of[1], {m.of[2], m.of[3], m.of[4]}, m.of[5], m.of[6], m.of[7]};
 }
 
-template <bool forWriting> void prefetchBodies(const BodyState* bodies, const BodyMobility* mobilities, const GeneralPack& pack)
+template <bool general> inline auto sideOf(const BodyState* bodies, const BodyMobility* mobilities, const std::int32_t* index)
+{
+	if constexpr (general)
+		return gather(bodies, mobilities, index);
+	else
+		return gather(bodies, index);
+}
+
+inline void prefetchMobilities(const BodyMobility* mobilities, const GeneralPack& pack)
 {
 #pragma GCC unroll 8
 	for (int i = 0; i < packLanes; ++i) {
-		__builtin_prefetch(at(bodies, pack.body1[i]), forWriting);
-		__builtin_prefetch(at(bodies, pack.body2[i]), forWriting);
 		__builtin_prefetch(lineOf(numbersOf(mobilities), pack.body1[i]));
 		__builtin_prefetch(lineOf(numbersOf(mobilities), pack.body2[i]));
 	}
@@ -95,6 +101,13 @@ Vector relativeVelocity(const OneSide& one, const OneSide& two, const Vector& ar
 {
 	const Vector u = (two.v - one.v) + (cross(two.w, arm2) - cross(one.w, arm1));
 	return gradient ? u + gradient * (arm1 - arm2) : u;
+}
+
+/// r^T W r of impulses in global axes, by the mobilities of the bodies.
+inline Wide energyOf(const Vector& r, const Vector& arm1, const Vector& arm2, const GeneralSide& one, const GeneralSide& two)
+{
+	const Vector turn1 = cross(arm1, r), turn2 = cross(arm2, r);
+	return dot(r, one.pushed(r) + two.pushed(r)) + dot(turn1, one.turned(turn1)) + dot(turn2, two.turned(turn2));
 }
 
 /// To the velocities what impulses in global axes give.

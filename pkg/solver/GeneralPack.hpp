@@ -16,20 +16,18 @@ struct alignas(64) BodyMobility {
 /// Contacts with any W, of clumps and blocks or with blocked degrees of freedom, that share no moving body; lanes as in BallPack.
 ///
 /// The tangents of the frame are the eigenvectors of A (PrincipalContact.hpp): t1 is stored, t2 = n x t1. Impulses are in this frame, normal first.
+/// W is that of the visits, compliance included: see PrincipalContact.hpp for its numbers, and GrainOperator::startField().
 struct alignas(64) GeneralPack {
-	double normal[3][packLanes], tangent[3][packLanes]; ///< n, t1
-	double arm1[3][packLanes], arm2[3][packLanes];		///< [m]
-	double offset[3][packLanes];						///< image velocity in the frame, plus the gap velocity on the normal [m/s]
-	double normalCompliance[packLanes];					///< on the diagonal of W: what the bodies' velocities do not know [1/kg]
-	double tangentialCompliance[packLanes];				///< likewise [1/kg]
-	double addedMobility[packLanes];					///< on the diagonal of W too, in visits only: see GrainOperator::startField() [1/kg]
-	double Wnn[packLanes], wLarge[packLanes], wSmall[packLanes], largeEigen[packLanes], smallEigen[packLanes]; ///< W, the last three included
-	double roundOff[packLanes];																				   ///< of A [1/kg]
-	double friction[packLanes];																				   ///< mu
-	double slidingRate[packLanes];	///< of the last visit in which it slid, 0: unknown
-	double impulse[3][packLanes];	///< as in BallPack
-	double increment[3][packLanes]; ///< likewise
-	double direction[3][packLanes]; ///< likewise
+	double normal[3][packLanes], tangent[3][packLanes];					 ///< n, t1
+	double arm1[3][packLanes], arm2[3][packLanes];						 ///< [m]
+	double offset[3][packLanes];										 ///< image velocity in the frame, plus the gap velocity on the normal [m/s]
+	double normalCompliance[packLanes], tangentialCompliance[packLanes]; ///< on the diagonal of W: what the velocities do not know [1/kg]
+	double Wnn[packLanes], wLarge[packLanes], wSmall[packLanes], largeEigen[packLanes], smallEigen[packLanes], roundOff[packLanes]; ///< W [1/kg]
+	double friction[packLanes];																										///< mu >= 0 [-]
+	double slidingRate[packLanes];	///< of the last visit in which it slid, 0: unknown [1/kg]
+	double impulse[3][packLanes];	///< r: after the last visit, inside the cone [N s]
+	double increment[3][packLanes]; ///< change of the impulse in the last visit [N s]
+	double direction[3][packLanes]; ///< search direction of the acceleration, one sweep behind [N s]
 	std::int32_t body1[packLanes], body2[packLanes];
 	std::int32_t id[packLanes];
 };

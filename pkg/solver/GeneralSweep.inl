@@ -32,14 +32,13 @@ inline void searchRates(const LocalW& W, const Local& push, Wide ratio, Lanes& s
 	rate = found ? k : rate;
 }
 
-/// One contact for which no lanes suffice: the first time it slides, or when its rate changes much.
+/// One contact for which no lanes suffice: the first time it slides, when its rate changes much, or when it slips where it cannot move.
 inline void solveAlone(GeneralPack& pack, int lane, double normal, double large, double small, double* r)
 {
 	const auto inverse = [](double x) { return x > 0 ? 1 / x : 0; };
 	const double Wnn = pack.Wnn[lane], largeEigen = pack.largeEigen[lane], smallEigen = pack.smallEigen[lane];
 	const PrincipalContact W{Wnn,		   pack.wLarge[lane],	pack.wSmall[lane],	largeEigen, smallEigen, pack.roundOff[lane],
 							 inverse(Wnn), inverse(largeEigen), inverse(smallEigen)};
-	pack.slidingRate[lane] = 0;
 	solve(W, {normal, large, small}, pack.friction[lane], pack.slidingRate[lane], r);
 }
 
@@ -71,6 +70,7 @@ inline Local solvedBy(GeneralPack& pack, int lane, const LocalW& W, const Local&
 	for (int i = 0; i < WIDE_LANES; ++i) {
 		if (!rest[i]) continue;
 		double one[3];
+		if (canStick[i]) pack.slidingRate[lane + i] = 0; // the search from there has been in vain
 		solveAlone(pack, lane + i, push.normal[i], push.large[i], push.small[i], one);
 		r.normal[i] = one[0];
 		r.large[i] = one[1];
@@ -88,7 +88,10 @@ template <bool hasField, bool rolls> __attribute__((flatten)) SweepNorms sweepGe
 	constexpr std::ptrdiff_t farAhead = 2, ahead = 1; // packs
 	const GeneralPack* const end = packs + count;
 	for (GeneralPack* pack = packs; pack != end; ++pack) {
-		if (end - pack > ahead) prefetchBodies<true>(bodies, mobilities, pack[ahead]);
+		if (end - pack > ahead) {
+			prefetchBodies<true>(bodies, pack[ahead]);
+			prefetchMobilities(mobilities, pack[ahead]);
+		}
 		if (end - pack > farAhead)
 			for (std::size_t i = 0; i < sizeof(GeneralPack); i += 64) __builtin_prefetch(reinterpret_cast<const char*>(pack + farAhead) + i, 1);
 		for (int part = 0, lane = 0; part < parts; ++part, lane += WIDE_LANES) {

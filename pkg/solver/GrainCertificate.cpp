@@ -4,6 +4,7 @@
 
 #include "BodyView.hpp"
 #include "CoulombCone.hpp"
+#include "LocalDelassus.hpp"
 
 #include <Eigen/Geometry>
 #include <numeric>

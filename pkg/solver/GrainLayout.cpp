@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which contacts are awake, and what is laid down of each.
 #include "GrainOperator.hpp"
+#include "LocalDelassus.hpp"
 #include "OneContact.hpp"
 
 #include <Eigen/Geometry>
@@ -95,8 +96,7 @@ void GrainOperator::putGeneral(std::size_t at, int lane, std::int32_t id)
 	const Contact& c = problem->contacts[id];
 	Matrix3 frame = contactFrame(c.normal);
 	Matrix3 W = compliantDelassus(c, frame);
-	const double added = hasField() && W(0, 0) > 0 ? mobility(W(0, 0), c) - W(0, 0) : 0;
-	W.diagonal().array() += added;
+	if (hasField() && W(0, 0) > 0) W.diagonal().array() += mobility(W(0, 0), c) - W(0, 0);
 	const OneContact local(W);
 	frame = local.principalFrame(frame);
 	const Vector3 impulse = frame * impulses[id], image = frame * c.imageVelocity;
@@ -110,7 +110,6 @@ void GrainOperator::putGeneral(std::size_t at, int lane, std::int32_t id)
 	}
 	pack.normalCompliance[lane] = c.normalCompliance;
 	pack.tangentialCompliance[lane] = c.tangentialCompliance;
-	pack.addedMobility[lane] = added;
 	const PrincipalContact& along = local.principal();
 	pack.Wnn[lane] = along.Wnn;
 	pack.wLarge[lane] = along.wLarge;

@@ -6,7 +6,6 @@
 #include "Colouring.hpp"
 #include "Crew.hpp"
 #include "CrushedContacts.hpp"
-#include "LocalDelassus.hpp"
 #include "NaturalMap.hpp"
 #include "RollingContact.hpp"
 #include "SolveReport.hpp"
@@ -72,7 +71,7 @@ private:
 	struct Sleeper {
 		Vector3 normal;
 		double offset; // gap velocity plus image velocity along the normal
-		double reach;  // arms along the normal, body 1 minus body 2: what the mean field acts on
+		double reach;  // of balls: arms along the normal, body 1 minus body 2, what the mean field acts on
 		std::int32_t body1, body2, id;
 		std::int32_t turning; // where its Turning is, -1 for balls, whose rotation does not change the normal velocity
 	};
@@ -86,7 +85,7 @@ private:
 		bool closes = false;
 	};
 
-	struct Course { // of a contact, kept while the contacts are laid out anew; impulses of balls in global axes
+	struct Course { // of a contact, kept while the contacts are laid out anew; in the axes of its pack
 		double impulse[3], increment[3], direction[3], slidingRate;
 	};
 

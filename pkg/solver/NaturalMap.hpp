@@ -7,7 +7,7 @@
 
 namespace contactdynamics {
 
-/// The certificate of a solution, defined here and nowhere else (BallCertificate.inl evaluates it for four ball contacts at a time).
+/// The certificate of a solution, defined here and nowhere else (CertificateLanes.inl evaluates it for several contacts at a time).
 ///
 /// Per contact, with K the Coulomb cone |r_t| <= mu r_n, P_K the Euclidean projection on it and u the relative velocity with the gap velocity
 /// added to its normal component, the projection equations (2), (7) of Jean (1999) with rho = 1 / W_nn read F = 0, where

@@ -190,7 +190,7 @@ inline Side gather(const BodyState* bodies, const std::int32_t* index)
 	return {{lane.of[0], lane.of[1], lane.of[2]}, {lane.of[4], lane.of[5], lane.of[6]}, lane.of[3], lane.of[7]};
 }
 
-template <bool forWriting> void prefetchBodies(const BodyState* bodies, const BallPack& pack)
+template <bool forWriting, class Pack> void prefetchBodies(const BodyState* bodies, const Pack& pack)
 {
 #pragma GCC unroll 8
 	for (int i = 0; i < packLanes; ++i) {

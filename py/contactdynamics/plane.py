@@ -54,11 +54,15 @@ def disk(
     """
     axes = _axes(plane)
     _require_positive("radius", radius)
-    if len(center) not in (2, 3):
+    try:
+        coordinates = [float(x) for x in center]
+    except (TypeError, ValueError):
+        coordinates = []
+    if len(coordinates) not in (2, 3):
         raise ValueError(f"center = {center!r}: it must have two coordinates (in the plane) or three")
-    position = Vector3(*center) if len(center) == 3 else Vector3(0, 0, 0)
-    if len(center) == 2:
-        position[axes[0]], position[axes[1]] = center
+    position = Vector3(*coordinates) if len(coordinates) == 3 else Vector3(0, 0, 0)
+    if len(coordinates) == 2:
+        position[axes[0]], position[axes[1]] = coordinates
     body = utils.sphere(position, radius, **more)
     make_disk(body, plane, thickness)
     return body

@@ -5,26 +5,49 @@
 //     sweep        one sweep with momentum over all contacts
 //     certificate  residual with fresh velocities
 //     start        everything before the first sweep: colouring, layout, start impulses
+//     general...   the same of grains that are no balls: arms off the normal, three different moments of inertia
 #include "GrainBox.hpp"
 #include "pkg/solver/GrainOperator.hpp"
 
+#include <Eigen/Geometry>
 #include <benchmark/benchmark.h>
+#include <random>
 
 using namespace contactdynamics;
 
 namespace {
 
+/// Grains are no balls any more: seed 1.
+void makeGeneral(GrainProblem& problem)
+{
+	std::mt19937_64 random(1);
+	std::normal_distribution<double> normal;
+	const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+	for (Body& body : problem.bodies) {
+		const Matrix3 turn = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
+		body.inverseInertia = turn * (body.inverseInertia * Eigen::DiagonalMatrix<double, 3>(0.5, 1, 1.5)) * turn.transpose();
+	}
+	for (Contact& c : problem.contacts) {
+		c.ball = false;
+		c.arm1 += 0.3 * GrainBox::radius * vector();
+		c.arm2 += 0.3 * GrainBox::radius * vector();
+	}
+}
+
 /// The lattice for about so many contacts; three to a grain. Made once for all kernels.
-GrainProblem& lattice(std::int64_t contacts)
+GrainProblem& lattice(std::int64_t contacts, bool general)
 {
 	static std::int64_t madeFor = 0;
+	static bool isGeneral = false;
 	static GrainProblem problem;
-	if (madeFor != contacts) {
+	if (madeFor != contacts || isGeneral != general) {
 		GrainBox::Setup setup;
 		setup.grains = int(contacts / 3);
 		setup.pitch = 1.6;
 		problem = GrainBox(setup).next();
+		if (general) makeGeneral(problem);
 		madeFor = contacts;
+		isGeneral = general;
 	}
 	return problem;
 }
@@ -44,9 +67,9 @@ void triad(benchmark::State& state)
 	state.counters["bytes"] = 24.0 * double(count);
 }
 
-class Kernel {
+template <bool general> class Kernel {
 public:
-	explicit Kernel(const benchmark::State& state) : problem(lattice(state.range(0))), crew(int(state.range(1)))
+	explicit Kernel(const benchmark::State& state) : problem(lattice(state.range(0), general)), crew(int(state.range(1)))
 	{
 		crew.resume();
 		start();
@@ -54,12 +77,13 @@ public:
 	void start() { grains.start(problem, true, crew); }
 
 	/// Bytes that cross the border of the caches in a sweep at least: every pack is read and three of its vectors written, every body read and
-	/// written in three arrays (velocity, velocity at the start of the sweep, direction).
+	/// written in three arrays (velocity, velocity at the start of the sweep, direction), and for general contacts read in a fourth.
 	void count(benchmark::State& state) const
 	{
 		const double contacts = double(grains.awakeContacts()), bodies = double(problem.bodies.size());
+		const double pack = general ? sizeof(GeneralPack) : sizeof(BallPack), body = 6 * sizeof(BodyState) + (general ? sizeof(BodyMobility) : 0);
 		state.counters["contacts"] = contacts;
-		state.counters["bytes"] = contacts * (sizeof(BallPack) + 9 * packLanes * sizeof(double)) / packLanes + bodies * 6 * sizeof(BodyState);
+		state.counters["bytes"] = contacts * (pack + 9 * packLanes * sizeof(double)) / packLanes + bodies * body;
 		state.counters["per_contact"] = benchmark::Counter(contacts, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 	}
 
@@ -68,17 +92,17 @@ public:
 	GrainOperator grains;
 };
 
-void sweep(benchmark::State& state)
+template <bool general> void sweepOf(benchmark::State& state)
 {
-	Kernel kernel(state);
+	Kernel<general> kernel(state);
 	for (auto _ : state) kernel.grains.sweep({0.3, 0.2});
 	kernel.count(state);
 	state.counters["residual"] = kernel.grains.certificate();
 }
 
-void certificate(benchmark::State& state)
+template <bool general> void certificateOf(benchmark::State& state)
 {
-	Kernel kernel(state);
+	Kernel<general> kernel(state);
 	for (int i = 0; i < 5; ++i) kernel.grains.sweep({});
 	double residual = 0;
 	for (auto _ : state) residual = kernel.grains.certificate();
@@ -86,13 +110,20 @@ void certificate(benchmark::State& state)
 	state.counters["residual"] = residual;
 }
 
-void start(benchmark::State& state)
+template <bool general> void startOf(benchmark::State& state)
 {
-	Kernel kernel(state);
+	Kernel<general> kernel(state);
 	for (auto _ : state) kernel.start();
 	kernel.count(state);
 	state.counters["residual"] = kernel.grains.certificate();
 }
+
+void sweep(benchmark::State& state) { sweepOf<false>(state); }
+void certificate(benchmark::State& state) { certificateOf<false>(state); }
+void start(benchmark::State& state) { startOf<false>(state); }
+void generalSweep(benchmark::State& state) { sweepOf<true>(state); }
+void generalCertificate(benchmark::State& state) { certificateOf<true>(state); }
+void generalStart(benchmark::State& state) { startOf<true>(state); }
 
 const std::vector<std::int64_t> sizes{1000, 10000, 100000, 1000000}, threads{1, 2};
 
@@ -102,5 +133,8 @@ BENCHMARK(triad)->ArgNames({"threads"})->ArgsProduct({threads})->UseRealTime()->
 BENCHMARK(sweep)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
 BENCHMARK(certificate)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
 BENCHMARK(start)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK(generalSweep)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK(generalCertificate)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK(generalStart)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
 
 BENCHMARK_MAIN();

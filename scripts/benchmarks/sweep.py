@@ -47,7 +47,7 @@ def main() -> None:
         rows.append({
             "kernel": kernel, "asked": sizes["contacts"], "contacts": int(run["contacts"]), "threads": sizes["threads"], "ns_per_contact": own,
             "cpu_ns_per_contact": run["cpu_time"] / run["contacts"], "bytes_per_contact": run["bytes"] / run["contacts"],
-            "share_of_bandwidth": run["bytes"] / (run["cpu_time"] * 1e-9) * sizes["threads"] / bandwidth[sizes["threads"]] if kernel == "sweep" else "",
+            "share_of_bandwidth": run["bytes"] / (run["cpu_time"] * 1e-9) * sizes["threads"] / bandwidth[sizes["threads"]] if kernel in ("sweep", "generalSweep") else "",
             "speed_up": alone["ns_per_contact"] / own if alone else "", "residual": run["residual"],
         })
     os.makedirs(options.out, exist_ok=True)

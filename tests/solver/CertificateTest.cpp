@@ -3,6 +3,7 @@
 #include "IndependentResidual.hpp"
 #include "Scenes.hpp"
 #include "pkg/solver/GrainOperator.hpp"
+#include "pkg/solver/SignoriniCoulombSolver.hpp"
 
 #include <gtest/gtest.h>
 
@@ -66,6 +67,53 @@ TEST(Certificate, KnowsMeanFieldImmobileBodiesAndImages)
 	for (const int sweeps : {0, 1, 5}) expectIndependentResidual(problem, sweeps);
 }
 
+TEST(Certificate, OfGeneralContactsKnowsMeanFieldsHoweverLight)
+{
+	for (const double inverseMass : {1e-3, 1e6, 1e14, 1e18}) {
+		GrainProblem problem = scenes::heap(4, 3, 0.3, false, true);
+		problem.meanField.emplace();
+		problem.meanField->inverseMass.setConstant(inverseMass);
+		problem.meanField->gradient = -0.3 * Matrix3::Identity();
+		for (const int sweeps : {0, 3}) expectIndependentResidual(problem, sweeps);
+	}
+	// A pair as heavy as that is next to a wall.
+	for (const double mass : {1.0, 1e9, 1e18}) {
+		GrainProblem problem;
+		problem.bodies = {scenes::ball(mass, 1), scenes::ball(mass, 1, {0, 0, -1}), scenes::ball(1, 1), scenes::ball(1, 1, {0, 0, -1})};
+		problem.contacts = {scenes::touch(0, 1, 1, 1, Vector3::UnitZ(), 0.3), scenes::touch(2, 1, 3, 1, Vector3::UnitZ(), 0.3)};
+		for (Contact& c : problem.contacts) c.ball = false;
+		problem.meanField.emplace();
+		problem.meanField->inverseMass.setConstant(1);
+		expectIndependentResidual(problem, 3);
+	}
+}
+
+// Sleepers are seen again when they close, by a formula of their own.
+TEST(Certificate, KnowsSleepersWithImagesAndMeanFields)
+{
+	std::mt19937_64 random(2);
+	std::normal_distribution<double> normal;
+	for (const bool general : {false, true})
+		for (const bool images : {false, true}) {
+			SCOPED_TRACE(testing::Message() << general << images);
+			GrainProblem problem = scenes::heap(8, 4, 0.4, false, general);
+			for (Contact& c : problem.contacts) c.gapVelocity *= 20; // far from closing, until the heap is on its way
+			for (std::size_t i = 0; images && i < problem.contacts.size(); i += 5)
+				problem.contacts[i].imageVelocity = 4 * Vector3(normal(random), normal(random), normal(random));
+			if (!images) {
+				problem.meanField.emplace();
+				problem.meanField->inverseMass.setConstant(1e-3);
+				for (int k = 0; k < 9; ++k) problem.meanField->gradient(k / 3, k % 3) = 2 * normal(random);
+			}
+			for (const int sweeps : {1, 5, 20}) expectIndependentResidual(problem, sweeps);
+			const GrainProblem free = problem;
+			SolverOptions options;
+			options.tolerance = 1e-5;
+			const SolveReport report = SignoriniCoulombSolver().solve(problem, options);
+			EXPECT_NEAR(report.residual, independent::residual(free, problem), 1e-8);
+		}
+}
+
 TEST(Certificate, KnowsRollingFriction)
 {
 	for (const double friction : {0.0, 0.4})
@@ -85,6 +133,14 @@ TEST(Certificate, KnowsRollingFriction)
 				problem.meanField->inverseMass.setConstant(1e-3);
 				expectIndependentResidual(problem, sweeps);
 			}
+}
+
+TEST(Certificate, KnowsRollingFrictionBeyondOneRunOfPacks)
+{
+	GrainProblem problem = scenes::heap(13, 3, 0.4, false, true);
+	ASSERT_GT(problem.contacts.size(), 2 * 256U * packLanes); // runs of the certificate have 256 packs
+	scenes::addRollingFriction(problem, 0.05);
+	expectIndependentResidual(problem, 5);
 }
 
 TEST(Certificate, IsTheSameInAnyUnits)

@@ -32,7 +32,7 @@ def test_disk(name: str) -> None:
     assert set(body.state.blockedDOFs) == set("xyz"[normal] + "XYZ"[first] + "XYZ"[second])
 
 
-@pytest.mark.parametrize("bad", [dict(radius=0), dict(radius=math.nan), dict(thickness=-1), dict(plane="xz"), dict(center=(1,)), dict(center=(1, 2, 3, 4))])
+@pytest.mark.parametrize("bad", [dict(radius=0), dict(radius=math.nan), dict(thickness=-1), dict(plane="xz"), dict(center=(1,)), dict(center=(1, 2, 3, 4)), dict(center=5), dict(center="ab")])
 def test_bad_arguments(bad: dict) -> None:
     material()
     with pytest.raises(ValueError):
