@@ -93,25 +93,24 @@ TEST(Certificate, KnowsSleepersWithImagesAndMeanFields)
 {
 	std::mt19937_64 random(2);
 	std::normal_distribution<double> normal;
-	for (const bool general : {false, true})
-		for (const bool images : {false, true}) {
-			SCOPED_TRACE(testing::Message() << general << images);
-			GrainProblem problem = scenes::heap(8, 4, 0.4, false, general);
-			for (Contact& c : problem.contacts) c.gapVelocity *= 20; // far from closing, until the heap is on its way
-			for (std::size_t i = 0; images && i < problem.contacts.size(); i += 5)
-				problem.contacts[i].imageVelocity = 4 * Vector3(normal(random), normal(random), normal(random));
-			if (!images) {
-				problem.meanField.emplace();
-				problem.meanField->inverseMass.setConstant(1e-3);
-				for (int k = 0; k < 9; ++k) problem.meanField->gradient(k / 3, k % 3) = 2 * normal(random);
-			}
-			for (const int sweeps : {1, 5, 20}) expectIndependentResidual(problem, sweeps);
-			const GrainProblem free = problem;
-			SolverOptions options;
-			options.tolerance = 1e-5;
-			const SolveReport report = SignoriniCoulombSolver().solve(problem, options);
-			EXPECT_NEAR(report.residual, independent::residual(free, problem), 1e-8);
+	for (int kind = 0; kind < 32; ++kind) {
+		SCOPED_TRACE(kind);
+		const bool general = kind & 1, images = kind & 2, heavy = kind & 4; // what a heavy grain hits becomes faster than any at the start
+		GrainProblem problem = scenes::heap(8, unsigned(kind / 8), 0.4, heavy, general);
+		for (Contact& c : problem.contacts) c.gapVelocity *= 20; // far from closing, until the heap is on its way
+		for (std::size_t i = 0; images && i < problem.contacts.size(); i += 5)
+			problem.contacts[i].imageVelocity = 4 * Vector3(normal(random), normal(random), normal(random));
+		if (!images) {
+			problem.meanField.emplace();
+			problem.meanField->inverseMass.setConstant(1e-3);
+			for (int k = 0; k < 9; ++k) problem.meanField->gradient(k / 3, k % 3) = 3 * normal(random);
 		}
+		const GrainProblem free = problem;
+		SolverOptions options;
+		options.tolerance = 1e-5;
+		const SolveReport report = SignoriniCoulombSolver().solve(problem, options);
+		EXPECT_NEAR(report.residual, independent::residual(free, problem), 1e-8);
+	}
 }
 
 TEST(Certificate, KnowsRollingFriction)
