@@ -351,7 +351,8 @@ TEST(BodyTree, SweepsKeepVelocitiesAndImpulsesTogether)
 	sheets.bodies.push_back(scenes::wall());
 	for (int i = 0; i < 8000; ++i) {
 		sheets.bodies.push_back(scenes::ball(1, 1, Vector3(0, 0.3 * (i % 3), i < 4000 ? 1 : -1)));
-		sheets.bodies.back().centre = Vector3(i % 4000 % 63, i % 4000 / 63, i < 4000 ? 0 : 1000);
+		const int column = i % 4000 % 63, row = i % 4000 / 63;
+		sheets.bodies.back().centre = Vector3(column, row, i < 4000 ? 0 : 1000);
 	}
 	for (int i = 1; i <= 4000; ++i)
 		for (const int j : {i, i % 4000 + 1}) sheets.contacts.push_back(scenes::touch(i, 1, 4000 + j, 1, Vector3::UnitZ(), 0.3));
