@@ -6,23 +6,14 @@ namespace contactdynamics {
 
 namespace {
 
-/// Fetches what lies ahead: of the packs what is used here (not increment and direction), and the bodies.
-template <bool forWriting> void fetchAhead(const BodyState* bodies, const BallPack* pack, const BallPack* end)
-{
-	constexpr std::ptrdiff_t far = 6, near = 3, line = 64;
-	if (end - pack > near) prefetchBodies<forWriting>(bodies, pack[near]);
-	if (end - pack <= far) return;
-	const char* next = reinterpret_cast<const char*>(pack + far);
-	for (std::size_t at = 0; at < offsetof(BallPack, increment); at += line) __builtin_prefetch(next + at);
-	for (std::size_t at = offsetof(BallPack, body1); at < sizeof(BallPack); at += line) __builtin_prefetch(next + at);
-}
+constexpr FetchDistance ballFetch{3, 6};
 
 template <bool hasField, bool rolls>
 __attribute__((flatten)) void rebuildOf(BodyState* bodies, const BallPack* packs, const RollingPack* rolling, std::size_t count, FieldPass* field)
 {
 	Wide moment[9][parts]{};
 	for (const BallPack* pack = packs; pack != packs + count; ++pack) {
-		fetchAhead<true>(bodies, pack, packs + count);
+		fetchAhead<true>(bodies, pack, packs + count, ballFetch);
 		for (int part = 0, lane = 0; part < parts; ++part, lane += WIDE_LANES) {
 			if (isEmpty(*pack, lane)) break;
 			Side one = gather(bodies, pack->body1 + lane), two = gather(bodies, pack->body2 + lane);
@@ -60,7 +51,7 @@ certifyOf(const BodyState* bodies, const BallPack* packs, const RollingPack* rol
 	Wide map2[parts]{}, impulse2[parts]{}, approach = zero;
 	const Wide gradientSize = hasField ? sizeOf(gradient) : zero;
 	for (const BallPack* pack = packs; pack != packs + count; ++pack) {
-		fetchAhead<false>(bodies, pack, packs + count);
+		fetchAhead<false>(bodies, pack, packs + count, ballFetch);
 		for (int part = 0, lane = 0; part < parts; ++part, lane += WIDE_LANES) {
 			if (isEmpty(*pack, lane)) break;
 			const Side one = gather(bodies, pack->body1 + lane), two = gather(bodies, pack->body2 + lane);

@@ -62,13 +62,9 @@ template <bool hasField, bool rolls> __attribute__((flatten)) SweepNorms sweepOf
 			two.v = two.v + two.inverseMass * dr;
 			two.w = two.w + (two.inverseInertia * arm2) * turn;
 			if (rolls) {
-				RollingPack& roll = rolling[pack - packs];
-				const Vector dm = visitTorque(roll, lane, relax, momentum, two.w - one.w, n, rn), torque = load(roll.torque, lane);
+				const Vector dm = visitTorque(rolling[pack - packs], lane, relax, momentum, two.w - one.w, n, rn, increment2[part], impulse2[part]);
 				one.w = one.w - one.inverseInertia * dm;
 				two.w = two.w + two.inverseInertia * dm;
-				const Wide Ww = load(roll.mobility + lane);
-				increment2[part] += Ww * dot(dm, dm);
-				impulse2[part] += Ww * dot(torque, torque);
 			}
 			scatter(bodies, pack->body1 + lane, one);
 			scatter(bodies, pack->body2 + lane, two);

@@ -9,6 +9,21 @@ namespace contactdynamics {
 
 namespace {
 
+struct FetchDistance {
+	std::ptrdiff_t bodies, packs; // how many packs ahead
+};
+
+/// Fetches what lies ahead: bodies, and of the packs what is used here, not increment and direction.
+template <bool forWriting, class Pack> void fetchAhead(const BodyState* bodies, const Pack* pack, const Pack* end, FetchDistance distance)
+{
+	constexpr std::size_t line = 64;
+	if (end - pack > distance.bodies) prefetchBodies<forWriting>(bodies, pack[distance.bodies]);
+	if (end - pack <= distance.packs) return;
+	const char* next = reinterpret_cast<const char*>(pack + distance.packs);
+	for (std::size_t at = 0; at < offsetof(Pack, increment); at += line) __builtin_prefetch(next + at);
+	for (std::size_t at = offsetof(Pack, body1); at < sizeof(Pack); at += line) __builtin_prefetch(next + at);
+}
+
 inline Wide largest(Wide a, Wide b) { return b > a ? b : a; }
 inline double largestLane(Wide a)
 {

@@ -15,20 +15,7 @@ inline Tangential operator*(Wide s, const Tangential& a) { return {s * a.large, 
 inline Wide dot(const Tangential& a, const Tangential& b) { return a.large * b.large + a.small * b.small; }
 inline Tangential chosen(Lanes mask, const Tangential& a, const Tangential& b) { return {mask ? a.large : b.large, mask ? a.small : b.small}; }
 
-/// Fetches the bodies that come next, and of the packs what is used here: not increment and direction.
-/// @param mobilities  null where they are not used
-template <bool forWriting> void fetchAhead(const BodyState* bodies, const BodyMobility* mobilities, const GeneralPack* pack, const GeneralPack* end)
-{
-	constexpr std::ptrdiff_t far = 2, near = 1, line = 64;
-	if (end - pack > near) {
-		prefetchBodies<forWriting>(bodies, pack[near]);
-		if (mobilities) prefetchMobilities(mobilities, pack[near]);
-	}
-	if (end - pack <= far) return;
-	const char* next = reinterpret_cast<const char*>(pack + far);
-	for (std::size_t at = 0; at < offsetof(GeneralPack, increment); at += line) __builtin_prefetch(next + at);
-	for (std::size_t at = offsetof(GeneralPack, body1); at < sizeof(GeneralPack); at += line) __builtin_prefetch(next + at);
-}
+constexpr FetchDistance generalFetch{1, 2};
 
 template <bool hasField, bool rolls> __attribute__((flatten)) void rebuildGeneralOf(BodyState* bodies, const BodyMobility* mobilities,
 																					const GeneralPack* packs, const RollingPack* rolling,
@@ -36,7 +23,8 @@ template <bool hasField, bool rolls> __attribute__((flatten)) void rebuildGenera
 {
 	Wide moment[9][parts]{};
 	for (const GeneralPack* pack = packs; pack != packs + count; ++pack) {
-		fetchAhead<true>(bodies, mobilities, pack, packs + count);
+		fetchAhead<true>(bodies, pack, packs + count, generalFetch);
+		if (packs + count - pack > generalFetch.bodies) prefetchMobilities(mobilities, pack[generalFetch.bodies]);
 		for (int part = 0, lane = 0; part < parts; ++part, lane += WIDE_LANES) {
 			if (isEmpty(*pack, lane)) break;
 			GeneralSide one = gather(bodies, mobilities, pack->body1 + lane), two = gather(bodies, mobilities, pack->body2 + lane);
@@ -73,7 +61,8 @@ __attribute__((flatten)) CertificateSums certifyGeneralOf(const BodyState* bodie
 	Wide map2[parts]{}, impulse2[parts]{}, approach = zero;
 	const Wide gradientSize = hasField ? sizeOf(gradient) : zero;
 	for (const GeneralPack* pack = packs; pack != packs + count; ++pack) {
-		fetchAhead<false>(bodies, hasField ? mobilities : nullptr, pack, packs + count);
+		fetchAhead<false>(bodies, pack, packs + count, generalFetch);
+		if (hasField && packs + count - pack > generalFetch.bodies) prefetchMobilities(mobilities, pack[generalFetch.bodies]);
 		for (int part = 0, lane = 0; part < parts; ++part, lane += WIDE_LANES) {
 			if (isEmpty(*pack, lane)) break;
 			// Where there is a mean field, the W of the visits is another one, see GrainOperator::startField().

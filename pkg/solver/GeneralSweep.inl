@@ -123,14 +123,10 @@ template <bool hasField, bool rolls> __attribute__((flatten)) SweepNorms sweepGe
 			if (hasField) addMoment(moment, part, given, arm1 - arm2);
 			apply(given, arm1, arm2, one, two);
 			if (rolls) {
-				RollingPack& roll = rolling[pack - packs];
-				const Vector dm = visitTorque(roll, lane, relax, momentum, two.w - one.w, frame.n, r.normal);
+				const Vector dm =
+						visitTorque(rolling[pack - packs], lane, relax, momentum, two.w - one.w, frame.n, r.normal, increment2[part], impulse2[part]);
 				one.w = one.w - one.turned(dm);
 				two.w = two.w + two.turned(dm);
-				const Wide Ww = load(roll.mobility + lane);
-				const Vector torque = load(roll.torque, lane);
-				increment2[part] += Ww * dot(dm, dm);
-				impulse2[part] += Ww * dot(torque, torque);
 			}
 			scatter(bodies, pack->body1 + lane, one);
 			scatter(bodies, pack->body2 + lane, two);

@@ -110,7 +110,7 @@ void GrainOperator::certifyWithout(const Contact& c, Sums& total) const
 	Vector3 u = frame * relativeVelocity(c);
 	u[0] += c.gapVelocity;
 	total.approach = std::max(total.approach, -u[0]);
-	if (!(W(0, 0) > 0)) return;
+	if (u[0] >= 0 || !(W(0, 0) > 0)) return; // open and separating: F = 0
 	const auto F =
 			naturalMap<Eigen::Vector2d>({0, Eigen::Vector2d::Zero()}, {u[0], u.tail<2>()}, c.friction, W(0, 0), std::min(speedsAt(c), speedLimit));
 	const Vector3 f(F.n, F.t[0], F.t[1]);

@@ -19,18 +19,6 @@ void GrainOperator::putSleeper(std::int32_t id)
 	if (!c.ball) turnings.push_back({c.arm1.cross(c.normal), c.arm2.cross(c.normal), branch});
 }
 
-template <class Pack> Pack GrainOperator::emptyPack() const
-{
-	Pack empty{};
-	for (int lane = 0; lane < packLanes; ++lane) {
-		empty.id[lane] = -1;
-		empty.body1[lane] = empty.body2[lane] = ~std::int32_t(problem->bodies.size());
-	}
-	return empty;
-}
-template BallPack GrainOperator::emptyPack() const;
-template GeneralPack GrainOperator::emptyPack() const;
-
 Vector3 GrainOperator::impulseOf(const BallPack& p, int lane) { return {p.impulse[0][lane], p.impulse[1][lane], p.impulse[2][lane]}; }
 
 Vector3 GrainOperator::impulseOf(const GeneralPack& p, int lane)
@@ -43,9 +31,6 @@ Vector3 GrainOperator::impulseOf(const GeneralPack& p, int lane)
 void GrainOperator::takeMobilities()
 {
 	const auto& bodies = problem->bodies;
-	const auto& contacts = problem->contacts;
-	mobilities.clear();
-	if (std::all_of(contacts.begin(), contacts.end(), [this](const Contact& c) { return isBall(c); })) return;
 	mobilities.resize(state.size());
 	inRuns(bodies.size(), [&](std::size_t i) {
 		const Vector3& mass = bodies[i].inverseMass;

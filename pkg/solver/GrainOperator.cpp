@@ -29,7 +29,6 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 		its.inverseInertia = bodies[i].inverseInertia(0, 0);
 	});
 	state.back() = {}; // what lanes without a contact refer to
-	takeMobilities();
 	impulses.resize(contacts.size());
 	inRuns(contacts.size(), [&](std::size_t i) {
 		const Contact& c = contacts[i];
@@ -46,16 +45,20 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 		run.closes = run.closes || approach < -roundOffOf(speeds);
 		run.approach = std::max(run.approach, -approach);
 		run.speeds = std::max(run.speeds, speeds);
+		run.anyGeneral = run.anyGeneral || !isBall(contacts[i]);
 	});
-	bool closes = false;
+	bool closes = false, anyGeneral = false;
 	for (const Sums& run : sums) {
 		closes = closes || run.closes;
+		anyGeneral = anyGeneral || run.anyGeneral;
 		largestFreeApproach = std::max(largestFreeApproach, run.approach);
 		speedLimit = std::max(speedLimit, 1000 * run.speeds);
 	}
 	// Where nothing closes, no impulse at all is an exact solution; from impulses of before the sweeps would only creep up to it.
 	if (!closes)
 		for (Vector3& impulse : impulses) impulse.setZero();
+	mobilities.clear();
+	if (anyGeneral) takeMobilities();
 	beginAtImpulses();
 }
 

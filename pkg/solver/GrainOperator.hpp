@@ -83,6 +83,7 @@ private:
 		ResidualSum residual;
 		double approach = 0, speeds = 0; // largest
 		bool closes = false;
+		bool anyGeneral = false;
 	};
 
 	struct Course { // of a contact, kept while the contacts are laid out anew; in the axes of its pack
@@ -201,7 +202,6 @@ private:
 	void layOut(const std::vector<std::int32_t>& ids);
 	void colourNode(std::size_t node);
 	void fillNode(std::size_t node);
-	template <class Pack> Pack emptyPack() const;
 	/// Calls visit(pack, lane) for each contact.
 	template <class Packs, class Visit> static void eachContact(Packs& packs, const Visit& visit)
 	{

@@ -16,6 +16,17 @@ int halvings(std::size_t contacts, std::size_t most)
 	return count;
 }
 
+/// A pack whose lanes all refer to this body.
+template <class Pack> Pack emptyPack(std::int32_t body)
+{
+	Pack empty{};
+	for (int lane = 0; lane < packLanes; ++lane) {
+		empty.id[lane] = -1;
+		empty.body1[lane] = empty.body2[lane] = ~body;
+	}
+	return empty;
+}
+
 } // namespace
 
 void GrainOperator::takeSeats()
@@ -68,8 +79,9 @@ void GrainOperator::layOut(const std::vector<std::int32_t>& ids)
 	}
 	pass.lastChunk = chunks.size();
 	passes.push_back(pass);
-	packs.resize(packCount, emptyPack<BallPack>());
-	generals.resize(generalCount, emptyPack<GeneralPack>());
+	const auto nobody = std::int32_t(problem->bodies.size()); // at rest, after all others
+	packs.resize(packCount, emptyPack<BallPack>(nobody));
+	generals.resize(generalCount, emptyPack<GeneralPack>(nobody));
 	if (!rollingContacts.empty()) {
 		rollingPacks.resize(packCount, RollingPack{});
 		rollingGenerals.resize(generalCount, RollingPack{});

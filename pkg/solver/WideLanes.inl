@@ -213,8 +213,9 @@ inline Vector improvedTorque(const RollingPack& rolling, int lane, const Vector&
 	return along * n + (length2 > limit * limit ? slip : all(1)) * across;
 }
 
-/// One visit of the torques of RollingContact.hpp; returns how they change.
-inline Vector visitTorque(RollingPack& rolling, int lane, Wide relax, Wide momentum, const Vector& spin, const Vector& n, Wide normalImpulse)
+/// One visit of the torques of RollingContact.hpp; returns how they change, and adds it to the norms of the sweep.
+inline Vector visitTorque(RollingPack& rolling, int lane, Wide relax, Wide momentum, const Vector& spin, const Vector& n, Wide normalImpulse,
+						  Wide& increment2, Wide& impulse2)
 {
 	const Vector last = load(rolling.increment, lane), ahead = relax * last + momentum * load(rolling.direction, lane);
 	const Vector before = load(rolling.torque, lane) + ahead, torque = improvedTorque(rolling, lane, before, spin, n, normalImpulse);
@@ -222,6 +223,9 @@ inline Vector visitTorque(RollingPack& rolling, int lane, Wide relax, Wide momen
 	store(rolling.direction, lane, last + ahead);
 	store(rolling.torque, lane, torque);
 	store(rolling.increment, lane, change);
+	const Wide Ww = load(rolling.mobility + lane);
+	increment2 += Ww * dot(change, change);
+	impulse2 += Ww * dot(torque, torque);
 	return change;
 }
 

@@ -92,7 +92,7 @@ public:
 	GrainOperator grains;
 };
 
-template <bool general> void sweepOf(benchmark::State& state)
+template <bool general> void sweep(benchmark::State& state)
 {
 	Kernel<general> kernel(state);
 	for (auto _ : state) kernel.grains.sweep({0.3, 0.2});
@@ -100,7 +100,7 @@ template <bool general> void sweepOf(benchmark::State& state)
 	state.counters["residual"] = kernel.grains.certificate();
 }
 
-template <bool general> void certificateOf(benchmark::State& state)
+template <bool general> void certificate(benchmark::State& state)
 {
 	Kernel<general> kernel(state);
 	for (int i = 0; i < 5; ++i) kernel.grains.sweep({});
@@ -110,7 +110,7 @@ template <bool general> void certificateOf(benchmark::State& state)
 	state.counters["residual"] = residual;
 }
 
-template <bool general> void startOf(benchmark::State& state)
+template <bool general> void start(benchmark::State& state)
 {
 	Kernel<general> kernel(state);
 	for (auto _ : state) kernel.start();
@@ -118,23 +118,21 @@ template <bool general> void startOf(benchmark::State& state)
 	state.counters["residual"] = kernel.grains.certificate();
 }
 
-void sweep(benchmark::State& state) { sweepOf<false>(state); }
-void certificate(benchmark::State& state) { certificateOf<false>(state); }
-void start(benchmark::State& state) { startOf<false>(state); }
-void generalSweep(benchmark::State& state) { sweepOf<true>(state); }
-void generalCertificate(benchmark::State& state) { certificateOf<true>(state); }
-void generalStart(benchmark::State& state) { startOf<true>(state); }
-
 const std::vector<std::int64_t> sizes{1000, 10000, 100000, 1000000}, threads{1, 2};
+
+void bySizeAndThreads(benchmark::internal::Benchmark* kernel)
+{
+	kernel->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
+}
 
 } // namespace
 
 BENCHMARK(triad)->ArgNames({"threads"})->ArgsProduct({threads})->UseRealTime()->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(sweep)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
-BENCHMARK(certificate)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
-BENCHMARK(start)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
-BENCHMARK(generalSweep)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
-BENCHMARK(generalCertificate)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
-BENCHMARK(generalStart)->ArgNames({"contacts", "threads"})->ArgsProduct({sizes, threads})->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK_TEMPLATE(sweep, false)->Name("sweep")->Apply(bySizeAndThreads);
+BENCHMARK_TEMPLATE(certificate, false)->Name("certificate")->Apply(bySizeAndThreads);
+BENCHMARK_TEMPLATE(start, false)->Name("start")->Apply(bySizeAndThreads);
+BENCHMARK_TEMPLATE(sweep, true)->Name("generalSweep")->Apply(bySizeAndThreads);
+BENCHMARK_TEMPLATE(certificate, true)->Name("generalCertificate")->Apply(bySizeAndThreads);
+BENCHMARK_TEMPLATE(start, true)->Name("generalStart")->Apply(bySizeAndThreads);
 
 BENCHMARK_MAIN();
