@@ -112,7 +112,7 @@ public:
 		for (std::size_t i = 0; i < lanes.size(); ++i) largest = std::max(largest, -problem.q[D * i]);
 		CrushedContacts contacts(tolerance, largest);
 		for (std::size_t i = 0; i < lanes.size(); ++i) {
-			if (!(-problem.q[D * i] >= 0.01 * largest && lanes[i].lane[0] > 0)) continue;
+			if (!(lanes[i].lane[0] > 0)) continue;
 			prepare();
 			contacts.add(problem.q[D * i], velocityAt(i)[0], lanes[i].lane[0], visited[i].W(0, 0));
 		}

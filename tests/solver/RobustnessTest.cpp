@@ -163,17 +163,25 @@ TEST(Robustness, AnImpulseThatDrownsTheVelocitiesIsNoSolution)
 
 namespace {
 
-/// A ball between two walls that come towards each other, besides a heap: no impulse stops both.
-GrainProblem withSqueezedGrain(GrainProblem problem, double otherWall)
+/// A ball at rest between two walls, beside what is in the problem already: where they come closer no impulse stops both.
+/// @param turns  the first wall reaches the grain at the end of an arm about which it turns, as fast
+GrainProblem withSqueezedGrain(GrainProblem problem, double oneWall, double otherWall, bool turns = false)
 {
 	const int wall = int(problem.bodies.size());
 	problem.bodies.push_back(scenes::wall());
 	problem.bodies.push_back(scenes::ball(1, 1));
 	problem.bodies.push_back(scenes::wall());
-	problem.bodies[wall].velocity = {1, 0, 0};
+	problem.bodies[wall].velocity = {oneWall, 0, 0};
 	problem.bodies[wall + 2].velocity = {otherWall, 0, 0};
 	problem.contacts.push_back(scenes::touch(wall, 0, wall + 1, 1, Vector3::UnitX(), 0.3));
 	problem.contacts.push_back(scenes::touch(wall + 1, 1, wall + 2, 0, Vector3::UnitX(), 0.3));
+	if (turns) {
+		Contact& atItsEnd = problem.contacts[problem.contacts.size() - 2];
+		atItsEnd.arm1 = Vector3::UnitY();
+		atItsEnd.ball = false;
+		std::swap(problem.bodies[wall].velocity[0], problem.bodies[wall].angularVelocity[2]);
+		problem.bodies[wall].angularVelocity *= -1;
+	}
 	return problem;
 }
 
@@ -184,23 +192,23 @@ TEST(Robustness, ASqueezedGrainHasNoSolutionAndIsNotCalledConverged)
 	SolverOptions options;
 	options.maxIterations = 50000;
 	for (const Acceleration acceleration : {Acceleration::none, Acceleration::momentum})
-		for (const double otherWall : {-1.0, 0.0})
-			for (const bool amongOthers : {false, true}) {
+		for (const auto& [oneWall, otherWall] : {std::pair{1.0, -1.0}, {1.0, 0.0}, {0.0, -1.0}})
+			for (const auto& [amongOthers, turns] : {std::pair{false, false}, {true, false}, {false, true}}) {
 				options.acceleration = acceleration;
-				GrainProblem problem = withSqueezedGrain(amongOthers ? scenes::heap(4, 3) : GrainProblem(), otherWall);
+				GrainProblem problem = withSqueezedGrain(amongOthers ? scenes::heap(4, 3) : GrainProblem(), oneWall, otherWall, turns);
 				const GrainProblem free = problem;
 				const SolveReport report = SignoriniCoulombSolver().solve(problem, options);
-				ASSERT_NE(report.status, SolveStatus::maxIterations) << otherWall << amongOthers; // or the case says nothing
-				EXPECT_EQ(report.status, SolveStatus::unbounded) << otherWall << amongOthers;
+				ASSERT_NE(report.status, SolveStatus::maxIterations) << oneWall << otherWall << amongOthers; // or the case says nothing
+				EXPECT_EQ(report.status, SolveStatus::unbounded) << oneWall << otherWall << amongOthers << turns;
 				EXPECT_NEAR(report.residual, independent::residual(free, problem), 1e-6 * report.residual);
-				EXPECT_GE(report.maxApproachSpeed, 0.49 * (1 - otherWall));
+				EXPECT_GE(report.maxApproachSpeed, 0.49 * (oneWall - otherWall));
 				// Carried over to the next step, where the impulses of now meet the tolerance at once.
 				GrainProblem next = free;
 				for (std::size_t i = 0; i < next.contacts.size(); ++i) next.contacts[i].impulse = problem.contacts[i].impulse;
 				EXPECT_EQ(SignoriniCoulombSolver().solve(next, options).status, SolveStatus::unbounded);
 			}
 	// A wall that only follows, and columns in which the lowest contact carries hundreds of times what one ball needs, have solutions.
-	GrainProblem followed = withSqueezedGrain({}, 1);
+	GrainProblem followed = withSqueezedGrain({}, 1, 1);
 	EXPECT_EQ(SignoriniCoulombSolver().solve(followed, options).status, SolveStatus::converged);
 	for (const double tolerance : {1e-1, 1e-3, 1e-5})
 		for (const int balls : {1, 50, 400}) {
@@ -232,16 +240,27 @@ TEST(Reproducible, SameBitsForAnyNumberOfThreads)
 
 TEST(Reproducible, NoMemoryOfEarlierProblems)
 {
-	const GrainProblem given = scenes::heap(6, 2);
+	// Smaller and larger ones, so that packs that are not full lie where full ones have been, with torques where there are none.
 	SignoriniCoulombSolver used;
-	for (unsigned seed = 3; seed < 6; ++seed) {
-		GrainProblem other = scenes::heap(int(seed), seed, 0.5, true, seed % 2);
-		used.solve(other, {});
-	}
-	GrainProblem a = given, b = given;
-	used.solve(a, {});
-	SignoriniCoulombSolver().solve(b, {});
-	EXPECT_TRUE(sameBits(a, b));
+	for (const bool general : {false, true})
+		for (const bool rolling : {false, true}) {
+			for (const int side : {3, 8, 7}) {
+				GrainProblem other = scenes::heap(side, unsigned(side), 0.5, true, side % 2);
+				scenes::addRollingFriction(other, 0.1);
+				used.solve(other, {});
+			}
+			GrainProblem a = scenes::heap(6, 2, 0.3, false, general);
+			if (rolling) {
+				scenes::addRollingFriction(a, 0.05);
+				for (std::size_t k = 0; 2 * k < a.rolling.size(); ++k) a.rolling[k] = a.rolling[2 * k];
+				a.rolling.resize((a.rolling.size() + 1) / 2);
+			}
+			GrainProblem b = a;
+			used.solve(a, {});
+			SignoriniCoulombSolver().solve(b, {});
+			EXPECT_TRUE(sameBits(a, b)) << general << rolling;
+			for (std::size_t k = 0; k < a.rolling.size(); ++k) EXPECT_EQ(a.rolling[k].torque, b.rolling[k].torque) << k;
+		}
 }
 
 TEST(Reproducible, BodyWithMoreContactsThanColours)
