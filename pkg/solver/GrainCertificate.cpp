@@ -175,11 +175,9 @@ CrushedContacts GrainOperator::crushed(double tolerance) const
 		if (hasField()) free += problem->meanField->gradient * (c.arm1 - c.arm2);
 		found.add(free.dot(c.normal) + c.gapVelocity, uN, rN, compliantDelassus(c, contactFrame(c.normal))(0, 0));
 	};
-	const auto at = [this](std::int32_t i) -> const BodyState& { return state[i < 0 ? ~i : i]; };
 	eachContact(packs, [&](const BallPack& p, int k) {
 		const Vector3 n(p.normal[0][k], p.normal[1][k], p.normal[2][k]);
-		const double field = hasField() ? (p.arm1[k] - p.arm2[k]) * n.dot(gradient * n) : 0;
-		look(p.id[k], (velocity(at(p.body2[k])) - velocity(at(p.body1[k]))).dot(n) + p.gapVelocity[k] + field, impulseOf(p, k).dot(n));
+		look(p.id[k], normalVelocity(p, k) + p.gapVelocity[k], impulseOf(p, k).dot(n));
 	});
 	eachContact(generals, [&](const GeneralPack& g, int k) {
 		const Contact& c = problem->contacts[g.id[k]];
@@ -192,13 +190,14 @@ CrushedContacts GrainOperator::crushed(double tolerance) const
 /// Whether no contact closes when every body, and the mean field, stands still along all directions in which it can move.
 bool GrainOperator::mayStandStill() const
 {
-	const auto given = [](const Vector3& v, const Vector3& mobility) -> Vector3 { return (mobility.array() == 0).select(v, Vector3::Zero()); };
-	const auto at = [&](const Body& b, const Vector3& arm) -> Vector3 {
-		return given(b.velocity, b.inverseMass) + given(b.angularVelocity, b.inverseInertia.diagonal()).cross(arm);
+	const auto at = [&](std::int32_t body, const Vector3& arm) -> Vector3 {
+		if (!driven[body]) return Vector3::Zero();
+		const Body& b = problem->bodies[body];
+		return b.givenVelocity() + b.givenAngularVelocity().cross(arm);
 	};
 	const Matrix3 still = hasField() ? problem->meanField->standingStill() : Matrix3(Matrix3::Zero());
 	for (const Contact& c : problem->contacts) {
-		const Vector3 u = at(problem->bodies[c.body2], c.arm2) + c.imageVelocity - at(problem->bodies[c.body1], c.arm1) + still * (c.arm1 - c.arm2);
+		const Vector3 u = at(c.body2, c.arm2) + c.imageVelocity - at(c.body1, c.arm1) + still * (c.arm1 - c.arm2);
 		if (u.dot(c.normal) + c.gapVelocity < 0) return false;
 	}
 	return true;

@@ -117,27 +117,28 @@ void GrainOperator::letIdleSleep()
 	selected.clear();
 	collectTorques();
 	std::size_t idle = 0;
-	const auto sort = [&](const auto& pack, int lane, double Wnn) {
+	const auto sort = [&](const auto& pack, int lane, double u, double Wnn) {
 		const std::int32_t id = pack.id[lane];
 		const RollingContact* rolling = rollingAt(id);
 		bool carries = rolling && rolling->carries();
 		for (int j = 0; j < 3; ++j) carries = carries || pack.impulse[j][lane] != 0 || pack.increment[j][lane] != 0 || pack.direction[j][lane] != 0;
-		const double u = normalVelocity(contacts[id]) + contacts[id].gapVelocity;
 		if (carries || u <= 0.1 * std::sqrt(energy * Wnn))
 			selected.push_back(id);
 		else
 			++idle;
 	};
 	eachContact(packs, [&](const BallPack& p, int lane) {
-		const Contact& c = contacts[p.id[lane]];
-		sort(p, lane, stateOf(c.body1).inverseMass + stateOf(c.body2).inverseMass);
+		sort(p, lane, normalVelocity(p, lane) + p.gapVelocity[lane], stateAt(p.body1[lane]).inverseMass + stateAt(p.body2[lane]).inverseMass);
 	});
-	eachContact(generals, [&](const GeneralPack& g, int lane) { sort(g, lane, g.Wnn[lane]); });
+	eachContact(generals, [&](const GeneralPack& g, int lane) {
+		const Contact& c = contacts[g.id[lane]];
+		sort(g, lane, normalVelocity(c) + c.gapVelocity, g.Wnn[lane]);
+	});
 	if (5 * idle < awake) return; // not worth the move
 
 	place.assign(contacts.size(), -1);
 	courses.clear();
-	courses.reserve(awake);
+	reserveWithRoom(courses, awake);
 	const auto keepCourse = [&](const auto& pack, int lane, double slidingRate) {
 		place[pack.id[lane]] = std::int32_t(courses.size());
 		courses.emplace_back();

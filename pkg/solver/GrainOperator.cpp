@@ -19,9 +19,13 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 	const auto& contacts = problem->contacts;
 	state.resize(bodies.size() + 1);
 	movable.resize(bodies.size());
+	driven.resize(bodies.size());
 	crew = &hands;
 	together = isWorthThreads(contacts.size());
-	inRuns(bodies.size(), [&](std::size_t i) { movable[i] = !bodies[i].inverseMass.isZero(0) || !bodies[i].inverseInertia.isZero(0); });
+	inRuns(bodies.size(), [&](std::size_t i) {
+		movable[i] = !bodies[i].inverseMass.isZero(0) || !bodies[i].inverseInertia.isZero(0);
+		driven[i] = !bodies[i].givenVelocity().isZero(0) || !bodies[i].givenAngularVelocity().isZero(0);
+	});
 	takeSeats();
 	inRuns(bodies.size(), [&](std::size_t i) {
 		BodyState& its = stateOf(std::int32_t(i));
@@ -87,6 +91,7 @@ void GrainOperator::beginAtImpulses()
 	const bool small = contacts.size() <= 64;
 	forgetLayout();
 	sleepers.clear();
+	reserveWithRoom(sleepers, contacts.size());
 	turnings.clear();
 	selected.clear();
 	for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -106,6 +111,14 @@ double GrainOperator::normalVelocity(const Contact& c) const
 	if (!c.ball) u += angularVelocity(b2).cross(c.arm2) - angularVelocity(b1).cross(c.arm1);
 	if (hasField()) u += gradient * (c.arm1 - c.arm2);
 	return u.dot(c.normal);
+}
+
+/// Without a look at the problem, whose contacts the sweeps have driven from the cache.
+double GrainOperator::normalVelocity(const BallPack& p, int k) const
+{
+	const Vector3 n(p.normal[0][k], p.normal[1][k], p.normal[2][k]);
+	const double u = (velocity(stateAt(p.body2[k])) - velocity(stateAt(p.body1[k]))).dot(n);
+	return hasField() ? u + (p.arm1[k] - p.arm2[k]) * n.dot(gradient * n) : u;
 }
 
 double GrainOperator::normalVelocity(const Sleeper& s) const

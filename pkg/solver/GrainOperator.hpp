@@ -7,6 +7,7 @@
 #include "Crew.hpp"
 #include "CrushedContacts.hpp"
 #include "NaturalMap.hpp"
+#include "PackList.hpp"
 #include "RollingContact.hpp"
 #include "SolveReport.hpp"
 
@@ -111,8 +112,9 @@ private:
 
 	std::vector<BodyState> state, sweepStart, direction; // by seat: velocities now, at the start of the last sweep, and of the search direction
 	std::vector<std::uint8_t> movable;
-	std::vector<Vector3> impulses; // per contact, global axes, inside the cone: those of the start, and from finish() on those of the end
-	std::vector<Vector3> kept;	   // likewise
+	std::vector<std::uint8_t> driven; // by body: it moves along directions in which no impulse moves it
+	std::vector<Vector3> impulses;	  // per contact, global axes, inside the cone: those of the start, and from finish() on those of the end
+	std::vector<Vector3> kept;		  // likewise
 	std::vector<RollingContact> rollingContacts; // parallel to GrainProblem::rolling
 	std::vector<Vector3> keptTorques;
 	std::vector<std::int32_t> rollingOf; // by contact, -1: none; empty where no contact has rolling friction
@@ -123,10 +125,10 @@ private:
 
 	BodyTree tree;
 	Colouring colouring;
-	std::vector<BallPack> packs;
-	std::vector<GeneralPack> generals;
-	std::vector<RollingPack> rollingPacks, rollingGenerals; // parallel to packs and generals; empty where no contact has rolling friction
-	std::vector<BodyMobility> mobilities;					// by seat, as state; empty where all contacts are of balls
+	PackList<BallPack> packs;
+	PackList<GeneralPack> generals;
+	PackList<RollingPack> rollingPacks, rollingGenerals; // parallel to packs and generals; empty where no contact has rolling friction
+	std::vector<BodyMobility> mobilities;				 // by seat, as state; empty where all contacts are of balls
 	std::vector<Course> courses;
 	std::vector<Pass> passes;
 	std::vector<Range> jobs; // of each shared pass those of the tree
@@ -188,8 +190,10 @@ private:
 	std::int32_t indexOf(std::int32_t body) const { return movable[body] ? tree.seat[body] : ~tree.seat[body]; }
 	BodyState& stateOf(std::int32_t body) { return state[tree.seat[body]]; }
 	const BodyState& stateOf(std::int32_t body) const { return state[tree.seat[body]]; }
+	const BodyState& stateAt(std::int32_t index) const { return state[index < 0 ? ~index : index]; } // of indexOf()
 	double normalVelocity(const Sleeper& s) const;
 	double normalVelocity(const Contact& c) const;
+	double normalVelocity(const BallPack& pack, int lane) const;
 	void addImpulse(const Contact& c, const Vector3& impulse);
 	void startRolling();
 	void beginAtTorques();

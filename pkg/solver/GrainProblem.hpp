@@ -21,6 +21,10 @@ struct Body {
 	Matrix3 inverseInertia;	 ///< global axes, symmetric, rows and columns 0 where blocked [1/(kg m2)]
 	/// Of mass, in a periodic cell that of any image: tells who is whose neighbour, for the order of the sweeps and for nothing else [m].
 	Vector3 centre = Vector3::Zero();
+
+	/// Parts that no impulse changes; the others are zero.
+	Vector3 givenVelocity() const { return (inverseMass.array() == 0).select(velocity, Vector3::Zero()); }
+	Vector3 givenAngularVelocity() const { return (inverseInertia.diagonal().array() == 0).select(angularVelocity, Vector3::Zero()); }
 };
 
 enum class ContactStatus : std::int8_t { none, sticking, sliding };

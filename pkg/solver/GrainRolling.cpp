@@ -34,7 +34,7 @@ void GrainOperator::beginAtTorques()
 /// From the packs, where the sweeps leave them.
 void GrainOperator::collectTorques()
 {
-	const auto take = [this](const auto& from, const std::vector<RollingPack>& torques) {
+	const auto take = [this](const auto& from, const PackList<RollingPack>& torques) {
 		inRuns(torques.size(), [&](std::size_t i) {
 			for (int lane = 0; lane < packLanes; ++lane)
 				if (RollingContact* rolling = from[i].id[lane] < 0 ? nullptr : rollingAt(from[i].id[lane])) rolling->take(torques[i], lane);

@@ -79,12 +79,11 @@ void GrainOperator::layOut(const std::vector<std::int32_t>& ids)
 	}
 	pass.lastChunk = chunks.size();
 	passes.push_back(pass);
-	const auto nobody = std::int32_t(problem->bodies.size()); // at rest, after all others
-	packs.resize(packCount, emptyPack<BallPack>(nobody));
-	generals.resize(generalCount, emptyPack<GeneralPack>(nobody));
+	packs.grow(packCount);
+	generals.grow(generalCount);
 	if (!rollingContacts.empty()) {
-		rollingPacks.resize(packCount, RollingPack{});
-		rollingGenerals.resize(generalCount, RollingPack{});
+		rollingPacks.grow(packCount);
+		rollingGenerals.grow(generalCount);
 	}
 	share(tree.nodes(), [&](std::size_t n) { fillNode(n); });
 	awake += ids.size();
@@ -123,6 +122,9 @@ void GrainOperator::colourNode(std::size_t node)
 void GrainOperator::fillNode(std::size_t node)
 {
 	const Chunk& chunk = nodeChunks[node];
+	const auto nobody = std::int32_t(problem->bodies.size()); // at rest, after all others
+	const auto emptyBall = emptyPack<BallPack>(nobody);
+	const auto emptyGeneral = emptyPack<GeneralPack>(nobody);
 	std::size_t next[]{chunk.firstPack, chunk.firstGeneral}; // pack of each sort
 	std::size_t at = 0, lane = 0;
 	int before = -1;
@@ -131,6 +133,11 @@ void GrainOperator::fillNode(std::size_t node)
 		if (kind != before || lane == Colouring::lanes(kind / 2)) {
 			at = next[isGeneral]++;
 			lane = 0;
+			if (isGeneral)
+				generals[at] = emptyGeneral;
+			else
+				packs[at] = emptyBall;
+			if (!rollingContacts.empty()) (isGeneral ? rollingGenerals : rollingPacks)[at] = RollingPack{};
 		}
 		if (isGeneral)
 			putGeneral(at, int(lane++), order[i]);
