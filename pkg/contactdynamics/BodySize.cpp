@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "BodySize.hpp"
 #include <pkg/common/Box.hpp>
-#include <pkg/common/Sphere.hpp>
 #include <pkg/polyhedra/Polyhedra.hpp>
 #include <algorithm>
 #include <cmath>
@@ -19,13 +18,13 @@ Real polyhedronRadius(const Shape& shape)
 
 Real grainRadius(const Body& body)
 {
-	if (const auto* sphere = dynamic_cast<const Sphere*>(body.shape.get())) return sphere->radius;
+	if (const Sphere* sphere = asSphere(body.shape.get())) return sphere->radius;
 	return body.shape ? polyhedronRadius(*body.shape) : 0;
 }
 
 Real extentAlong(const Body& body, const Vector3r& direction)
 {
-	if (const auto* sphere = dynamic_cast<const Sphere*>(body.shape.get())) return 2 * sphere->radius;
+	if (const Sphere* sphere = asSphere(body.shape.get())) return 2 * sphere->radius;
 	const Vector3r along = body.state->ori.conjugate() * direction;
 	if (const auto* box = dynamic_cast<const Box*>(body.shape.get())) return 2 * box->extents.dot(along.cwiseAbs());
 	const auto* polyhedra = dynamic_cast<const Polyhedra*>(body.shape.get());

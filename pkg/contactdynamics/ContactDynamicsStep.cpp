@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ContactDynamicsStep.hpp"
 #include "BodyCheck.hpp"
+#include "BodySize.hpp"
 #include "ContactDynamicsManifoldPhys.hpp"
 #include "ParallelLoop.hpp"
+#include "Prefetch.hpp"
 #include <core/Cell.hpp>
 #include <core/Clump.hpp>
 #include <core/Interaction.hpp>
@@ -10,6 +12,7 @@
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/solver/RoomToGrow.hpp>
 #include <pkg/solver/LocalDelassus.hpp>
 #include <algorithm>
 #include <cmath>
@@ -17,6 +20,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <typeinfo>
+#include <utility>
 
 namespace yade {
 namespace {
@@ -48,22 +52,13 @@ bool hasSeveralPoints(const Interaction& interaction, const ContactDynamicsPhys&
 	return dynamic_cast<const ManifoldGeom*>(interaction.geom.get()) && dynamic_cast<const ContactDynamicsManifoldPhys*>(&phys);
 }
 
-/// The objects of the contacts lie anywhere in memory, and only we know where: each is fetched some contacts before its turn, an interaction, which
-/// holds the addresses of the others, earlier.
-constexpr long ahead = 6, farAhead = 12;
-
-template <class Object> void prefetchObject(const Object* object)
+/// What describe() and writeBack() touch of the objects of a contact.
+[[gnu::always_inline]] inline void prefetchGeom(const ScGeom& geom)
 {
-	constexpr std::size_t line = 64;
-	for (std::size_t at = 0; at < sizeof(Object); at += line) __builtin_prefetch(reinterpret_cast<const char*>(object) + at);
+	Prefetch::between(&geom.normal, &geom.refR1);
+	Prefetch::whole(&geom.penetrationDepth);
 }
-
-/// Growth by doubling would keep twice the memory, growth by what is missing would copy everything in each step of a packing that gets denser.
-template <class Element> void resizeFrugally(std::vector<Element>& vector, std::size_t count)
-{
-	if (vector.capacity() < count) vector.reserve(count + count / 8);
-	vector.resize(count);
-}
+[[gnu::always_inline]] inline void prefetchResult(const ContactDynamicsPhys& phys) { Prefetch::between(&phys.normalForce, &phys.normalRestitution); }
 
 const char* nameOf(contactdynamics::ContactStatus status)
 {
@@ -89,8 +84,12 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 	views.assign(count, BodyView());
 	idOfIndex.clear();
 	for (int id = 0; id < count; id++) {
+		if (id + Prefetch::ahead < count) Prefetch::whole((*scene.bodies)[id + Prefetch::ahead].get());
 		const auto& body = (*scene.bodies)[id];
-		if (!body || body->isClumpMember()) continue;
+		if (!body) continue;
+		views[id].state = body->state.get();
+		views[id].member = body->isClumpMember();
+		if (views[id].member) continue;
 		views[id].index = static_cast<int>(idOfIndex.size());
 		idOfIndex.push_back(id);
 	}
@@ -99,7 +98,13 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 	problem.meanField.reset();
 	const Matrix3r edges = scene.isPeriodic ? scene.cell->hSize : Matrix3r(Matrix3r::Identity()), toCell = edges.inverse();
 
-	parallelLoop(static_cast<long>(idOfIndex.size()), [&](long index) {
+	const long movers = static_cast<long>(idOfIndex.size());
+	parallelLoop(movers, [&](long index) {
+		if (index + Prefetch::ahead < movers) {
+			const int coming = idOfIndex[index + Prefetch::ahead];
+			Prefetch::whole((*scene.bodies)[coming].get());
+			Prefetch::whole(views[coming].state);
+		}
 		const int id = idOfIndex[index];
 		const Body& body = *(*scene.bodies)[id];
 		Vector3r force = scene.forces.getForce(id);
@@ -122,18 +127,19 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 	});
 
 	parallelLoop(count, [&](long id) {
+		if (id + Prefetch::farAhead < count) Prefetch::whole((*scene.bodies)[id + Prefetch::farAhead].get());
+		if (id + Prefetch::ahead < count)
+			if (const Body* coming = (*scene.bodies)[id + Prefetch::ahead].get()) Prefetch::probably<Sphere>(coming->shape.get());
 		const auto& body = (*scene.bodies)[id];
 		if (!body) return;
 		BodyView& view = views[id];
-		view.state = body->state.get();
-		view.member = body->isClumpMember();
 		if (view.member) {
 			view.index = views[body->clumpId].index;
 			if (view.index < 0)
 				throw std::runtime_error("body #" + std::to_string(id) + " is a member of clump #" + std::to_string(body->clumpId) +
 										 ", which does not exist (any more).");
 		}
-		if (const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get())) {
+		if (const Sphere* sphere = asSphere(body->shape.get())) {
 			requirePositiveRadius(*body, sphere->radius); // the collider passes over a sphere without a size, which then falls through all others
 			view.radius = sphere->radius;
 		}
@@ -143,42 +149,46 @@ void ContactDynamicsStep::collectBodies(Scene& scene, const IntegratorPlan& plan
 	});
 }
 
-/// The order of YADE's list depends on the history of the run, and O.load makes another one. Sorted by the smaller id, then by the other, the
-/// interactions are in an order that depends on nothing but ids. A walk through the trees of interactions that the bodies keep gives this order as
-/// well, but nothing in it can be fetched ahead: it took 60 ms of 150 for 200,000 interactions. A second array to sort into would save 7 of the 14 ms
-/// and take 32 bytes a contact.
+/// The order of YADE's list depends on the history of the run, and O.load makes another one. Counted into place by the larger id and then, in that
+/// order, by the smaller one, the interactions are in an order that depends on nothing but ids. A walk through the trees of interactions that the
+/// bodies keep gives it as well, but nothing in it can be fetched ahead: it took 60 ms of 150 for 200,000 interactions. Swaps into place,
+/// each of which waits for the one before, took 2.5 times as long. A second array of all that was gathered was given up for its 32 bytes a contact.
 void ContactDynamicsStep::orderById()
 {
-	const auto smaller = [](const Gathered& one) { return std::min(one.id1, one.id2); };
-	const auto larger = [](const Gathered& one) { return std::max(one.id1, one.id2); };
 	gathered.erase(std::remove_if(gathered.begin(), gathered.end(), [](const Gathered& one) { return !one.phys; }), gathered.end());
-	firstOfId.assign(views.size() + 1, 0);
-	for (const Gathered& one : gathered) firstOfId[smaller(one) + 1]++;
-	std::partial_sum(firstOfId.begin(), firstOfId.end(), firstOfId.begin());
-	// Each is swapped to the next free place of its id, until what has come here belongs here.
-	freePlace = firstOfId;
-	for (std::size_t id = 0; id < views.size(); id++)
-		while (freePlace[id] < firstOfId[id + 1]) {
-			Gathered& here = gathered[freePlace[id]];
-			std::swap(here, gathered[freePlace[smaller(here)]++]);
+	const auto count = static_cast<int>(gathered.size());
+	const auto countInto = [&](std::vector<int>& order, const auto& idOf, const auto& before) {
+		firstOfId.assign(views.size() + 1, 0);
+		for (const Gathered& one : gathered) firstOfId[idOf(one) + 1]++;
+		std::partial_sum(firstOfId.begin(), firstOfId.end(), firstOfId.begin());
+		contactdynamics::resizeWithRoom(order, count);
+		for (int k = 0; k < count; k++) order[firstOfId[idOf(gathered[before(k)])]++] = before(k);
+	};
+	const auto largerId = [](const Gathered& one) { return std::max(one.id1, one.id2); };
+	const auto smallerId = [](const Gathered& one) { return std::min(one.id1, one.id2); };
+	countInto(byLargerId, largerId, [](int k) { return k; });
+	countInto(byIds, smallerId, [&](int k) { return byLargerId[k]; });
+	constexpr int done = -1;
+	for (int start = 0; start < count; start++) {
+		if (byIds[start] == done) continue;
+		const Gathered first = gathered[start];
+		int place = start;
+		for (int from = std::exchange(byIds[place], done); from != start; from = std::exchange(byIds[place], done)) {
+			gathered[place] = gathered[from];
+			place = from;
 		}
-	parallelLoop(static_cast<long>(views.size()), [&](long id) {
-		std::sort(gathered.begin() + firstOfId[id], gathered.begin() + firstOfId[id + 1],
-				  [&](const Gathered& a, const Gathered& b) { return larger(a) < larger(b); });
-	});
+		gathered[place] = first;
+	}
 }
 
 void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 {
 	const InteractionContainer& all = *scene.interactions;
 	const long inList = all.end() - all.begin();
-	resizeFrugally(gathered, inList);
+	contactdynamics::resizeWithRoom(gathered, inList);
 	parallelLoop(inList, [&](long i) {
-		if (i + farAhead < inList) prefetchObject(all[i + farAhead].get());
-		if (i + ahead < inList) {
-			__builtin_prefetch(all[i + ahead]->phys.get());
-			__builtin_prefetch(all[i + ahead]->geom.get());
-		}
+		if (i + Prefetch::farAhead < inList) Prefetch::whole(all[i + Prefetch::farAhead].get());
+		if (i + Prefetch::ahead < inList) __builtin_prefetch(all[i + Prefetch::ahead]->phys.get()); // what type it has
 		Interaction& interaction = *all[i];
 		const int id1 = interaction.getId1(), id2 = interaction.getId2();
 		const auto exists = [&](int id) { return id >= 0 && id < static_cast<int>(views.size()) && views[id].state; };
@@ -206,7 +216,7 @@ void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 		one.firstLink = points;
 		points += one.severalPoints ? static_cast<int>(pointsOf(one).size()) : 1;
 	}
-	resizeFrugally(links, points);
+	contactdynamics::resizeWithRoom(links, points);
 	parallelLoop(static_cast<long>(gathered.size()), [&](long i) {
 		const Gathered& one = gathered[i];
 		const auto link = [&](int place, ContactDynamicsPhys* phys, int point) { links[place] = {one.interaction, phys, point, one.id1, one.id2}; };
@@ -215,6 +225,8 @@ void ContactDynamicsStep::gatherInteractions(const Scene& scene)
 	});
 }
 
+/// Overwrites what a contact of the step before has left here, but for status and velocity, which the solve gives, and impulse and gap velocity. (To
+/// begin with a Contact() would cost a quarter more.)
 void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynamics::Contact& contact) const
 {
 	const Interaction& interaction = *link.interaction;
@@ -224,7 +236,6 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 	const Vector3r shift = scene.isPeriodic ? Vector3r(scene.cell->hSize * interaction.cellDist.cast<Real>()) : Vector3r(Vector3r::Zero());
 
 	// The contact point lies in the middle of gap or overlap. For spheres the arms come from the radii, exactly along the normal.
-	contact = contactdynamics::Contact();
 	contact.normal = geom.normal;
 	link.gap = -geom.penetrationDepth;
 	Vector3r point = geom.contactPoint;
@@ -238,8 +249,9 @@ void ContactDynamicsStep::describe(const Scene& scene, Link& link, contactdynami
 	contact.body1 = view1.index;
 	contact.body2 = view2.index;
 	contact.ball = view1.ball && view2.ball;
+	contact.normalCompliance = contact.tangentialCompliance = 0;
 	// An image is carried by the cell: at the next step it stands at pos + hSize·cellDist with the hSize of then.
-	if (scene.isPeriodic && !problem.meanField) contact.imageVelocity = velGrad * shift;
+	contact.imageVelocity = scene.isPeriodic && !problem.meanField ? Vector3r(velGrad * shift) : Vector3r(Vector3r::Zero());
 
 	const auto fromMassCentre = [&](const BodyView& view, const Vector3r& arm) {
 		return view.member ? Vector3r(arm + view.state->pos - views[idOfIndex[view.index]].state->pos) : arm;
@@ -352,20 +364,21 @@ void ContactDynamicsStep::collectContacts(const Scene& scene, const std::string&
 	const bool velocitySignorini = contactLaw == "velocitySignorini", quasiInelasticShock = contactLaw == "quasiInelasticShock";
 	gatherInteractions(scene);
 	settleSurfaceSeams(scene);
-	resizeFrugally(problem.contacts, links.size());
+	contactdynamics::resizeWithRoom(problem.contacts, links.size());
 	const long count = static_cast<long>(links.size());
 	parallelLoop(count, [&](long i) {
-		if (i + farAhead < count) prefetchObject(links[i + farAhead].interaction);
-		if (i + ahead < count) {
-			prefetchObject(static_cast<const ScGeom*>(links[i + ahead].interaction->geom.get()));
-			prefetchObject(links[i + ahead].phys);
+		if (i + Prefetch::farAhead < count)
+			Prefetch::between(&links[i + Prefetch::farAhead].interaction->geom, &links[i + Prefetch::farAhead].interaction->linIx);
+		if (i + Prefetch::ahead < count) {
+			prefetchGeom(static_cast<const ScGeom&>(*links[i + Prefetch::ahead].interaction->geom));
+			Prefetch::whole(links[i + Prefetch::ahead].phys);
 		}
 		Link& link = links[i];
 		contactdynamics::Contact& contact = problem.contacts[i];
 		describe(scene, link, contact);
 		requireUsable(link, contact);
 		link.plain = link.phys->isPlain();
-		link.pushed = link.phys->pseudoImpulse != 0;
+		link.pseudoImpulse = link.phys->pseudoImpulse;
 		if (link.phys->rollingArm == 0 && link.phys->twistingArm == 0 && link.phys->torqueImpulse != Vector3r::Zero())
 			link.phys->torqueImpulse = Vector3r::Zero(); // of arms that have been set to 0
 		contact.impulse = (link.swapped ? -warmStart : warmStart) * link.phys->impulse;
@@ -439,7 +452,7 @@ void ContactDynamicsStep::apply(Scene& scene)
 		links[one.contact].phys->torqueImpulse = (links[one.contact].swapped ? -1 : 1) * one.torque;
 	const long count = static_cast<long>(links.size());
 	parallelLoop(count, [&](long i) {
-		if (i + ahead < count) prefetchObject(links[i + ahead].phys);
+		if (i + Prefetch::ahead < count) prefetchResult(*links[i + Prefetch::ahead].phys);
 		writeBack(links[i], problem.contacts[i]);
 	});
 	parallelLoop(static_cast<long>(manifolds.size()), [&](long i) { manifolds[i].phys->sumUp(*manifolds[i].geom); });

@@ -87,11 +87,11 @@ private:
 		int point;				   // of a ManifoldGeom; -1 for a contact with one point
 		int id1, id2;			   // of the bodies, as the interaction has them
 		bool swapped = false, solved = true;
-		bool plain = true;	 // see ContactDynamicsPhys::isPlain
-		bool pushed = false; // phys->pseudoImpulse was not 0 when collected: saves the repair from fetching phys to find, or leave, 0
+		bool plain = true; // see ContactDynamicsPhys::isPlain
 		// From the positions of the two bodies (not of their clumps) to the contact point [m].
 		Vector3r arm1 = Vector3r::Zero(), arm2 = Vector3r::Zero();
-		Real gap = 0; // [m]
+		Real gap = 0;			// [m]
+		Real pseudoImpulse = 0; // of phys when collected: saves the repair from fetching phys to find it, or to leave 0
 	};
 	struct Manifold { // contact with several points, each of which is a link
 		ManifoldGeom* geom;
@@ -168,8 +168,8 @@ private:
 	std::vector<Vector3r> places;			   // likewise, where there is a mean field: positions [m]
 	std::optional<IntegratorPlan> planOfField; // where there is a mean field
 	std::vector<Gathered> gathered;
-	std::vector<int> firstOfId, freePlace; // in gathered, by smaller id, see orderById()
-	std::vector<Link> links;			   // parallel to problem.contacts once collected
+	std::vector<int> firstOfId, byLargerId, byIds; // places in gathered, see orderById()
+	std::vector<Link> links;					   // parallel to problem.contacts once collected
 	std::vector<Manifold> manifolds;
 	std::vector<Load> loads; // contact force and torque by body id
 	ShiftedContacts shifted;

@@ -4,10 +4,12 @@
 #include "ContactDynamicsPhys.hpp"
 #include "ContactDynamicsStep.hpp"
 #include "ContactEnergy.hpp"
+#include "Prefetch.hpp"
 #include <core/Clump.hpp>
 #include <core/Scene.hpp>
 #include <algorithm>
 #include <limits>
+#include <pkg/solver/RoomToGrow.hpp>
 #include <pkg/solver/LocalDelassus.hpp>
 
 namespace yade {
@@ -82,13 +84,14 @@ void ContactDynamicsStep::noteOverlap(const Scene& scene, const TouchingPair& pa
 void ContactDynamicsStep::setPseudoImpulse(const TouchingPair& pair, Real pseudoImpulse)
 {
 	for (std::size_t i = pair.first; i < pair.last; i++)
-		if (links[i].pushed || pseudoImpulse != 0) links[i].phys->pseudoImpulse = pseudoImpulse;
+		if (pseudoImpulse != links[i].pseudoImpulse) links[i].phys->pseudoImpulse = pseudoImpulse;
 }
 
 /// Those that the displacements of this step might close, and that are not compliant, whose overlap is meant. The others forget how they were pushed.
 void ContactDynamicsStep::choosePairs(const Scene& scene)
 {
 	pairs.clear();
+	contactdynamics::reserveWithRoom(pairs, links.size());
 	for (std::size_t i = 0; i < links.size();) {
 		const TouchingPair pair = pairFrom(i);
 		i = pair.last;
@@ -121,14 +124,17 @@ void ContactDynamicsStep::repairPenetration(Scene& scene, Real rate, Real allowe
 void ContactDynamicsStep::displace(Scene& scene, Real share, Real allowed, const Matrix3r& cellMobility)
 {
 	candidates.clear();
+	contactdynamics::reserveWithRoom(candidates, pairs.size());
 	for (const TouchingPair& pair : pairs) {
 		std::size_t its = pair.first;
 		while (pair.loaded && problem.contacts[its].impulse == Vector3r::Zero()) its++;
-		candidates.push_back({static_cast<int>(its), pair.gap, pair.deepest, pair.size, pair.last - pair.first > 1,
-							  links[pair.first].pushed ? links[pair.first].phys->pseudoImpulse : 0});
+		candidates.push_back({static_cast<int>(its), pair.gap, pair.deepest, pair.size, pair.last - pair.first > 1, links[pair.first].pseudoImpulse});
 	}
 	repair.solve(problem, candidates, share, allowed, cellMobility);
-	for (std::size_t k = 0; k < pairs.size(); k++) setPseudoImpulse(pairs[k], candidates[k].pseudoImpulse);
+	for (std::size_t k = 0; k < pairs.size(); k++) {
+		if (k + Prefetch::ahead < pairs.size()) Prefetch::whole(&links[pairs[k + Prefetch::ahead].first].phys->pseudoImpulse);
+		setPseudoImpulse(pairs[k], candidates[k].pseudoImpulse);
+	}
 	remainingOverlap = repair.remainingOverlap(candidates);
 	repairDisplacement = repair.largestDisplacement();
 	repairStrain = repair.strain();
@@ -137,6 +143,11 @@ void ContactDynamicsStep::displace(Scene& scene, Real share, Real allowed, const
 	const bool cellMoves = !repairStrain.isZero(0);
 	const Matrix3r strainAsVelocity = cellMoves ? Matrix3r(planOfField->beforeStep(velGrad) * repairStrain) : Matrix3r(Matrix3r::Zero());
 	for (std::size_t index = 0; index < idOfIndex.size(); index++) {
+		if (index + Prefetch::ahead < idOfIndex.size()) {
+			const int coming = idOfIndex[index + Prefetch::ahead];
+			Prefetch::whole((*scene.bodies)[coming].get());
+			Prefetch::between(&views[coming].state->se3, &views[coming].state->angVel);
+		}
 		const Vector3r& relative = repair.displacement(static_cast<int>(index));
 		if (relative == Vector3r::Zero() && !cellMoves) continue;
 		const Body& body = *(*scene.bodies)[idOfIndex[index]];

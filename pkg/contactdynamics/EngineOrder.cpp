@@ -15,12 +15,21 @@
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 
 namespace yade {
 namespace {
-void require(bool fulfilled, const std::string& message)
+/// @param message  text, or a function that makes it: to put the messages together costs more than to look at the engines, in each step
+template <class Message> void require(bool fulfilled, const Message& message)
 {
-	if (!fulfilled) throw std::runtime_error("ContactDynamicsEngine: " + message + " contactdynamics.engines() returns a list in the right order.");
+	if (fulfilled) return;
+	const auto fail = [](const std::string& what) {
+		throw std::runtime_error("ContactDynamicsEngine: " + what + " contactdynamics.engines() returns a list in the right order.");
+	};
+	if constexpr (std::is_invocable_v<Message>)
+		fail(message());
+	else
+		fail(message);
 }
 /// Engines that add forces or set velocities of some bodies or all: KinematicEngine, ForceEngine, GravityEngine and their kin.
 bool actsOnBodies(const Engine& engine)
@@ -67,11 +76,12 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 				"GlobalStiffnessTimeStepper stands in O.engines, but rigid contacts have no stiffness to take a time step from. Remove it, or set "
 				"active=False, and set O.dt.");
 		if (passed && !newtonBehind && intruder.empty() && actsOnBodies(*other)) intruder = name;
-		require(!followsForces(*other) || passed || !resetBefore,
-				"ServoPIDController stands behind ForceResetter and before this engine in O.engines, where there are no contact forces yet that it "
-				"could "
-				"follow. Put it" +
-						std::string(name == "ServoPIDController" ? "" : ", with the " + name + " it is part of,") + " behind NewtonIntegrator.");
+		require(!followsForces(*other) || passed || !resetBefore, [&] {
+			const std::string whole = name == "ServoPIDController" ? "" : ", with the " + name + " it is part of,";
+			return "ServoPIDController stands behind ForceResetter and before this engine in O.engines, where there are no contact forces yet "
+				   "that it could follow. Put it" +
+				   whole + " behind NewtonIntegrator.";
+		});
 		if (name == "ForceResetter") resetBefore |= !passed;
 		if (dynamic_cast<const Collider*>(other.get())) {
 			collides = true;
@@ -93,11 +103,13 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 		}
 	}
 	require(integrators > 0, "there is no (live) NewtonIntegrator in O.engines; put NewtonIntegrator(damping=0) behind this engine.");
-	require(integrators == 1, "there are " + std::to_string(integrators) + " live NewtonIntegrators in O.engines; exactly one may move the bodies.");
+	require(integrators == 1,
+			[&] { return "there are " + std::to_string(integrators) + " live NewtonIntegrators in O.engines; exactly one may move the bodies."; });
 	require(newtonBehind, "NewtonIntegrator stands before this engine in O.engines, so the contact forces would not act; put it behind.");
-	require(intruder.empty(), intruder + " stands between this engine and NewtonIntegrator in O.engines, where the forces it adds or the velocities "
-										 "it sets would spoil the solution. "
-										 "Put it before this engine or behind NewtonIntegrator.");
+	require(intruder.empty(), [&] {
+		return intruder + " stands between this engine and NewtonIntegrator in O.engines, where the forces it adds or the velocities it sets would "
+						  "spoil the solution. Put it before this engine or behind NewtonIntegrator.";
+	});
 	require(resetBefore, "no ForceResetter stands before this engine in O.engines, so forces of past steps would add up; make it the first engine.");
 	// A scene may do with interactions that were made by hand (utils.createInteraction).
 	const InteractionContainer& interactions = *scene.interactions;
@@ -108,15 +120,19 @@ const NewtonIntegrator& requireEngineOrder(const Scene& scene, const Engine& eng
 			"no InteractionLoop stands before this engine in O.engines, so there are no contacts to solve; put it between collider and engine.");
 	require(lawBefore, "no InteractionLoop before this engine in O.engines has a law for ContactDynamicsPhys, so contacts would be lost; give it "
 					   "Law2_ScGeom_ContactDynamicsPhys_SignoriniCoulomb().");
-	require(lateCollider.empty(), lateCollider +
-										  " stands between InteractionLoop and NewtonIntegrator in O.engines, so pairs that it finds would be solved "
-										  "a step late, and fast bodies pass through one another. Put it before InteractionLoop.");
-	std::ostringstream gravity, damping;
-	gravity << newton->gravity.transpose();
-	require(newton->gravity.allFinite(), "NewtonIntegrator.gravity is " + gravity.str() + "; it must be finite.");
-	damping << newton->damping;
+	require(lateCollider.empty(), [&] {
+		return lateCollider +
+			   " stands between InteractionLoop and NewtonIntegrator in O.engines, so pairs that it finds would be solved a step late, "
+			   "and fast bodies pass through one another. Put it before InteractionLoop.";
+	});
+	const auto valueOf = [](const char* name, const auto& value, const char* allowed) {
+		std::ostringstream message;
+		message << "NewtonIntegrator." << name << " is " << value << allowed;
+		return message.str();
+	};
+	require(newton->gravity.allFinite(), [&] { return valueOf("gravity", newton->gravity.transpose(), "; it must be finite."); });
 	require(newton->damping == 0,
-			"NewtonIntegrator.damping is " + damping.str() + "; it must be 0: damped velocities no longer satisfy the contact law.");
+			[&] { return valueOf("damping", newton->damping, "; it must be 0: damped velocities no longer satisfy the contact law."); });
 	return *newton;
 }
 
@@ -133,8 +149,9 @@ ContactDynamicsCellController* findCellController(const Scene& scene)
 		for (const auto& other : scene.engines) {
 			if (!other || other->dead) continue;
 			const std::string name = other->getClassName();
-			require(name != "PeriTriaxController" && name != "Peri3dController",
-					name + " and ContactDynamicsCellController stand in O.engines; one of them moves the cell. Remove one or set it dead.");
+			require(name != "PeriTriaxController" && name != "Peri3dController", [&] {
+				return name + " and ContactDynamicsCellController stand in O.engines; one of them moves the cell. Remove one or set it dead.";
+			});
 		}
 	}
 	return found;

@@ -11,6 +11,7 @@ bool Ig2_Sphere_Sphere_ScGeom_Proximity::go(const shared_ptr<Shape>& shape1, con
 											const State& state2, const Vector3r& shift2, const bool& force,
 											const shared_ptr<Interaction>& interaction)
 {
+	prefetchComing(*scene, *interaction);
 	const Real r1 = static_cast<const Sphere&>(*shape1).radius;
 	const Real r2 = static_cast<const Sphere&>(*shape2).radius;
 	const Vector3r branch = state2.pos + shift2 - state1.pos;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "LargestRates.hpp"
+#include "BodySize.hpp"
 #include "ContactDynamicsCellController.hpp"
 #include "ContactDynamicsTriaxialController.hpp"
 #include "ConvexShapes.hpp"
 #include "Gravity.hpp"
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
-#include <pkg/common/Sphere.hpp>
 #include <pkg/polyhedra/Polyhedra.hpp>
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ void raise(Real& largest, Real value)
 /// for other shapes, and for those that the search for contacts refuses.
 Real innerRadius(const Body& body)
 {
-	if (const auto* sphere = dynamic_cast<const Sphere*>(body.shape.get())) return sphere->radius;
+	if (const Sphere* sphere = asSphere(body.shape.get())) return sphere->radius;
 	if (const auto* box = dynamic_cast<const Box*>(body.shape.get())) return body.isDynamic() || body.isClumpMember() ? box->extents.minCoeff() : 0;
 	if (!dynamic_cast<const Polyhedra*>(body.shape.get())) return 0;
 	try {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "PairLaw.hpp"
+#include "BodySize.hpp"
 #include "ContactDynamicsPhys.hpp"
-#include <core/Body.hpp>
-#include <pkg/common/Sphere.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +11,7 @@ namespace yade {
 namespace {
 Real radiusOf(const Body& body)
 {
-	const auto* sphere = dynamic_cast<const Sphere*>(body.shape.get());
+	const Sphere* sphere = asSphere(body.shape.get());
 	return sphere ? sphere->radius : std::numeric_limits<Real>::infinity();
 }
 std::string complaint(const char* what, Real value, const char* allowed)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <pkg/solver/RoomToGrow.hpp>
 
 namespace yade {
 namespace {
@@ -96,6 +97,7 @@ void PenetrationRepair::solve(const contactdynamics::GrainProblem& solved, std::
 	mobilityOfCell = cellMobility;
 	cellStrain.setZero();
 	rows.clear();
+	contactdynamics::reserveWithRoom(rows, candidates.size());
 	stretches.clear();
 	Real smallest = std::numeric_limits<Real>::infinity(), asked = 0;
 	for (Candidate& candidate : candidates) {

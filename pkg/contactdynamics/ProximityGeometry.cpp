@@ -1,11 +1,39 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ProximityGeometry.hpp"
 #include "DeferredError.hpp"
+#include "Prefetch.hpp"
 #include "Reach.hpp"
+#include <core/InteractionContainer.hpp>
 #include <core/Scene.hpp>
+#include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 namespace yade {
+
+/// Another thread may be at work on what comes, and give it a geometry or the other order of ids: nothing but an address to fetch is read here,
+/// whether the one of before or of after.
+void prefetchComing(const Scene& scene, const Interaction& interaction)
+{
+	const InteractionContainer& all = *scene.interactions;
+	const long at = interaction.linIx, count = all.end() - all.begin();
+	if (at < 0) return; // made by hand, and in no container yet
+	const auto bodiesOf = [&](const Interaction& one, const auto& visit) {
+		for (const int id : {one.getId1(), one.getId2()})
+			if (const Body* body = (*scene.bodies)[id].get()) visit(*body);
+	};
+	constexpr long soon = Prefetch::ahead / 2;
+	if (at + Prefetch::farAhead < count) Prefetch::whole(all[at + Prefetch::farAhead].get());
+	if (at + Prefetch::ahead < count) {
+		const Interaction& coming = *all[at + Prefetch::ahead];
+		bodiesOf(coming, [](const Body& body) { Prefetch::whole(&body); });
+		Prefetch::probably<ScGeom>(coming.geom.get());
+	}
+	if (at + soon < count)
+		bodiesOf(*all[at + soon], [](const Body& body) {
+			Prefetch::between(&body.state->se3, &body.state->vel);
+			Prefetch::probably<Sphere>(body.shape.get());
+		});
+}
 
 bool beyondReach(const Scene& scene, const Interaction& interaction, Real gap, bool force)
 {

@@ -17,6 +17,10 @@ struct Nearest {
 	Real radius2;
 };
 
+/// Fetch what the interactions that come next will need. InteractionLoop takes them in the order of their container and waits for each of their
+/// objects; only a functor can tell it what comes.
+void prefetchComing(const Scene& scene, const Interaction& interaction);
+
 /// True when the pair is no contact and cannot become one in the coming step: the functor then returns without making a geometry.
 bool beyondReach(const Scene& scene, const Interaction& interaction, Real gap, bool force);
 

@@ -5,13 +5,12 @@
 #include "ContactDynamicsTriaxialController.hpp"
 #include "Gravity.hpp"
 #include "LawForUs.hpp"
-#include <core/Body.hpp>
+#include "Prefetch.hpp"
 #include <core/Cell.hpp>
 #include <core/InteractionLoop.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Facet.hpp>
-#include <pkg/common/Sphere.hpp>
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -38,6 +37,7 @@ constexpr Real flightsPerCell = 4;
 struct Surroundings {
 	std::vector<const Body*> bodies;		 // listed once: more may be appended from outside while a run goes on in the background
 	std::vector<Real> speed, radius, margin; // by body id
+	std::vector<std::uint8_t> driven;		 // likewise: nothing can be handed on to it
 	Real smallestRadius = std::numeric_limits<Real>::infinity();
 	Real largestSpeed = 0;	// of all bodies
 	Real boundarySpeed = 0; // of bodies that are neither spheres nor polyhedra: they may be anywhere along their extent
@@ -63,13 +63,14 @@ std::mutex guard;
 /// Largest distance of a point of the surface from the body's position, for the part of its speed that comes from rotation.
 Real turningRadius(const Shape& shape)
 {
+	if (asSphere(&shape)) return 0; // sweeps nothing
 	if (const auto* box = dynamic_cast<const Box*>(&shape)) return box->extents.norm();
 	if (const auto* facet = dynamic_cast<const Facet*>(&shape)) {
 		Real largest = 0;
 		for (const Vector3r& vertex : facet->vertices) largest = std::max(largest, vertex.norm());
 		return largest;
 	}
-	return polyhedronRadius(shape); // a turning sphere sweeps nothing
+	return polyhedronRadius(shape);
 }
 
 /// Speed the surface of the body may have in the coming step. A NaN counts as 0: the engine names the body that carries it.
@@ -97,31 +98,41 @@ Surroundings measureSpeeds(const Scene& scene)
 	Surroundings around;
 	const Real gravity = gravityOf(scene).norm();
 	Real cellRate = scene.isPeriodic ? scene.cell->velGrad.norm() : 0;
-	std::unordered_map<int, Real> driven;
+	std::unordered_map<int, Real> walls;
 	for (const auto& engine : scene.engines) {
 		if (const auto* cell = dynamic_cast<const ContactDynamicsCellController*>(engine.get()); cell && !cell->dead)
 			cellRate = std::max(cellRate, std::min(cell->outlook(scene).rate, cell->largestStrain / scene.dt)); // more is refused
 		if (const auto* box = dynamic_cast<const ContactDynamicsTriaxialController*>(engine.get()); box && !box->dead)
-			for (const auto& wall : box->outlook(scene)) driven[wall.wall] = wall.speed;
+			for (const auto& wall : box->outlook(scene)) walls[wall.wall] = wall.speed;
 	}
 	const std::size_t count = scene.bodies->size();
 	around.speed.assign(count, 0);
 	around.radius.assign(count, 0);
 	around.margin.assign(count, 0);
+	around.driven.assign(count, 0);
 	around.bodies.reserve(count);
 	for (std::size_t id = 0; id < count; ++id)
 		if (const Body* body = (*scene.bodies)[static_cast<unsigned>(id)].get()) around.bodies.push_back(body);
-	for (const Body* body : around.bodies) {
-		if (body->isClump()) continue;
+	const long existing = static_cast<long>(around.bodies.size());
+	for (long i = 0; i < existing; ++i) {
+		if (i + Prefetch::farAhead < existing) Prefetch::whole(around.bodies[i + Prefetch::farAhead]);
+		if (i + Prefetch::ahead < existing) {
+			const Body* coming = around.bodies[i + Prefetch::ahead];
+			Prefetch::whole(coming->state.get());
+			Prefetch::probably<Sphere>(coming->shape.get());
+		}
+		const Body* body = around.bodies[i];
 		const int id = body->getId();
+		around.driven[id] = !body->isDynamic() && !body->isClumpMember();
+		if (body->isClump()) continue;
 		const Real radius = grainRadius(*body);
 		if (radius > 0) {
 			around.radius[id] = radius;
-			around.margin[id] = (dynamic_cast<const Sphere*>(body->shape.get()) ? marginOfRadius : marginOfPolyhedron) * radius;
+			around.margin[id] = (asSphere(body->shape.get()) ? marginOfRadius : marginOfPolyhedron) * radius;
 			around.smallestRadius = std::min(around.smallestRadius, radius);
 		}
 		Real speed = surfaceSpeed(scene, *body, around.radius[id], gravity, cellRate);
-		if (const auto wall = driven.find(id); wall != driven.end() && std::isfinite(wall->second)) speed = std::max(speed, wall->second);
+		if (const auto wall = walls.find(id); wall != walls.end() && std::isfinite(wall->second)) speed = std::max(speed, wall->second);
 		around.speed[id] = speed;
 		around.largestSpeed = std::max(around.largestSpeed, speed);
 		if (!(radius > 0)) around.boundarySpeed = std::max(around.boundarySpeed, speed);
@@ -189,8 +200,7 @@ std::vector<Real> spreadReaches(const Scene& scene, const Surroundings& around)
 	std::vector<Real> reach(around.speed.size(), 0);
 	for (const Body* body : around.bodies) {
 		const int id = body->getId();
-		const bool driven = !body->isDynamic() && !body->isClumpMember(); // nothing can be handed on to it
-		reach[id] = h * (driven ? around.speed[id] : std::max(around.speed[id], near[id])) + around.margin[id];
+		reach[id] = h * (around.driven[id] ? around.speed[id] : std::max(around.speed[id], near[id])) + around.margin[id];
 	}
 	return reach;
 }
