@@ -13,8 +13,8 @@ constexpr long ahead = 6, farAhead = 12;
 [[gnu::always_inline]] inline void between(const void* first, const void* last)
 {
 	constexpr std::uintptr_t line = 64;
-	for (auto at = reinterpret_cast<std::uintptr_t>(first) / line * line; at < reinterpret_cast<std::uintptr_t>(last); at += line)
-		__builtin_prefetch(reinterpret_cast<const void*>(at));
+	for (const char* at = static_cast<const char*>(first) - reinterpret_cast<std::uintptr_t>(first) % line; at < last; at += line)
+		__builtin_prefetch(at);
 }
 
 /// Null is passed over.
