@@ -91,7 +91,7 @@ private:
 		// From the positions of the two bodies (not of their clumps) to the contact point [m].
 		Vector3r arm1 = Vector3r::Zero(), arm2 = Vector3r::Zero();
 		Real gap = 0;			// [m]
-		Real pseudoImpulse = 0; // of phys when collected: saves the repair from fetching phys to find it, or to leave 0
+		Real pseudoImpulse = 0; // that of phys: saves the repair from fetching phys to find it, or to leave it
 	};
 	struct Manifold { // contact with several points, each of which is a link
 		ManifoldGeom* geom;

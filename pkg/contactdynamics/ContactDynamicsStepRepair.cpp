@@ -84,7 +84,7 @@ void ContactDynamicsStep::noteOverlap(const Scene& scene, const TouchingPair& pa
 void ContactDynamicsStep::setPseudoImpulse(const TouchingPair& pair, Real pseudoImpulse)
 {
 	for (std::size_t i = pair.first; i < pair.last; i++)
-		if (pseudoImpulse != links[i].pseudoImpulse) links[i].phys->pseudoImpulse = pseudoImpulse;
+		if (pseudoImpulse != links[i].pseudoImpulse) links[i].phys->pseudoImpulse = links[i].pseudoImpulse = pseudoImpulse;
 }
 
 /// Those that the displacements of this step might close, and that are not compliant, whose overlap is meant. The others forget how they were pushed.

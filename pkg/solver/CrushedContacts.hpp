@@ -15,13 +15,16 @@ namespace contactdynamics {
 ///
 /// with a = -q_N, its own approach without impulses, if that is >= 0.01 of the largest one. Or, with a thousand times whatever the tolerance, a = the
 /// largest: the contact visited last is solved exactly, so what is left to close may be one that nothing closes without impulses (a grain at rest
-/// under a lid that comes down: the floor). With 0.1 / tolerance, heaps whose overlaps are pushed out look so at tolerances of 1e-3 and more.
+/// under a lid that comes down: the floor). Such a squeeze is missed where it is slower than 0.1 of the largest approach, of a fall in the step, say,
+/// and at tolerances above 1e-4, which are met earlier; with 0.1 / tolerance, solvable columns of unequal masses on a floor that rises look so at
+/// 1e-2.
 ///
 /// A long column or a loose tolerance can look like that for a while. So whoever finds crushed contacts at a point that meets the tolerance goes on
 /// for furtherSweeps() sweeps by the same method, without stopping, and asks stay(): without a solution the approach is the same afterwards,
-/// otherwise it is less (plain sweeps after accelerated ones do not take enough away). Rejected: sums over all contacts (one grain crushed in a heap
-/// does not show in them); going on to a twentieth of the tolerance (with impulses that are carried over from step to step that takes millions of
-/// sweeps). A chain of more than twenty grains between two walls, where each contact keeps less than a tenth, is not noticed.
+/// otherwise it is less (plain sweeps after accelerated ones do not take enough away). It errs where mass ratios are 1e3 and more: of columns on a
+/// floor that rises, a thousand times as heavy on top, one step in eight at 1e-4. Rejected: sums over all contacts (one grain crushed in a heap does
+/// not show in them); going on to a twentieth of the tolerance (with impulses that are carried over from step to step that takes millions of sweeps).
+/// A chain of ten to twenty grains or more between two walls, where each contact keeps less than a tenth, is not noticed.
 class CrushedContacts {
 public:
 	/// @param largestApproach  largest -q_N of the problem [m/s]
