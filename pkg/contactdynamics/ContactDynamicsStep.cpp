@@ -12,8 +12,8 @@
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
-#include <pkg/solver/RoomToGrow.hpp>
 #include <pkg/solver/LocalDelassus.hpp>
+#include <pkg/solver/RoomToGrow.hpp>
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -9,8 +9,8 @@
 #include <core/Scene.hpp>
 #include <algorithm>
 #include <limits>
-#include <pkg/solver/RoomToGrow.hpp>
 #include <pkg/solver/LocalDelassus.hpp>
+#include <pkg/solver/RoomToGrow.hpp>
 
 namespace yade {
 namespace {
