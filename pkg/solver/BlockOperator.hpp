@@ -5,8 +5,8 @@
 #include "BlockProblem.hpp"
 #include "BlockResidual.hpp"
 #include "BlockRows.hpp"
+#include "BlockSqueeze.hpp"
 #include "ContactsApart.hpp"
-#include "CrushedContacts.hpp"
 #include "OneContact.hpp"
 #include "OneContact2D.hpp"
 #include "ProblemBlocks.hpp"
@@ -105,19 +105,15 @@ public:
 			for (std::size_t i = 0; i < lanes.size(); ++i) report.ambiguousContacts += !OneContact2D(diagonalBlock(i)).isUnique(problem.friction[i]);
 	}
 
-	/// Contacts that impulses, however large, do not stop.
-	CrushedContacts crushed(double tolerance)
+	/// The factor of Squeeze.hpp, of the present impulses or of what they have that others lack. From a thousand on it is certain.
+	double squeeze(const std::vector<Vector>* others = nullptr)
 	{
-		double largest = 0;
-		for (std::size_t i = 0; i < lanes.size(); ++i) largest = std::max(largest, -problem.q[D * i]);
-		CrushedContacts contacts(tolerance, largest);
-		for (std::size_t i = 0; i < lanes.size(); ++i) {
-			if (!(lanes[i].lane[0] > 0)) continue;
-			prepare();
-			contacts.add(problem.q[D * i], velocityAt(i)[0], lanes[i].lane[0], visited[i].W(0, 0));
-		}
-		return contacts;
+		std::vector<Vector> r, u;
+		impulses(r);
+		velocities(u);
+		return squeezeFactor<D>(problem, r, u, others);
 	}
+	static constexpr double certainSqueeze = 1000;
 
 	void impulses(std::vector<Vector>& r) const
 	{

@@ -99,7 +99,7 @@ private:
 		if (pathPerSweeps * spent < inSweeps(newton->stepCost())) return;
 		const auto reached = [&](const std::vector<Vector>& impulses) {
 			blocks.setImpulses(impulses);
-			certify(blocks, options.tolerance, best);
+			certify(blocks, best);
 			return solved();
 		};
 		if (!path) {
@@ -136,13 +136,14 @@ private:
 	bool runsAway()
 	{
 		if (report.maxApproachSpeed == 0) return false;
-		const CrushedContacts here = blocks.crushed(options.tolerance);
-		if (!here.any()) return false;
+		if (blocks.squeeze() < Squeeze::suspected) return false;
+		std::vector<Vector> here;
+		blocks.impulses(here);
 		SolverOptions further = options;
-		further.maxIterations = CrushedContacts::furtherSweeps(report.iterations);
+		further.maxIterations = Squeeze::furtherSweeps(report.iterations);
 		further.tolerance = std::numeric_limits<double>::min();
 		signoriniCoulombLoop(blocks, further);
-		return here.stay(blocks.crushed(options.tolerance));
+		return blocks.squeeze(&here) >= BlockOperator<D>::certainSqueeze;
 	}
 
 	double last = 0; // residual after the last sweep

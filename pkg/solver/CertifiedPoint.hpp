@@ -11,11 +11,11 @@ template <int D> struct CertifiedPoint {
 	std::vector<Eigen::Matrix<double, D, 1>> impulses;
 };
 
-/// Keeps the operator's impulses as the best point where its certificate says so; not where contacts go on closing whatever the impulses are.
-template <int D> void certify(BlockOperator<D>& blocks, double tolerance, CertifiedPoint<D>& best)
+/// Keeps the operator's impulses as the best point where its certificate says so; not where they press on what does not give way (Squeeze.hpp).
+template <int D> void certify(BlockOperator<D>& blocks, CertifiedPoint<D>& best)
 {
 	const double residual = blocks.certificate();
-	if (!(residual < best.residual) || blocks.crushed(tolerance).any()) return;
+	if (!(residual < best.residual) || blocks.squeeze() >= BlockOperator<D>::certainSqueeze) return;
 	best.residual = residual;
 	blocks.impulses(best.impulses);
 }

@@ -36,12 +36,30 @@ void GrainOperator::collectImpulses(std::vector<Vector3>& r)
 		inRuns(from.size(), [&](std::size_t i) {
 			for (int lane = 0; lane < packLanes; ++lane) {
 				const std::int32_t id = from[i].id[lane];
-				if (id >= 0) r[id] = insideCone(impulseOf(from[i], lane), contacts[id].normal, contacts[id].friction);
+				if (id >= 0) r[id] = insideCone(inGlobalAxes(from[i], from[i].impulse, lane), contacts[id].normal, contacts[id].friction);
 			}
 		});
 	};
 	collect(packs);
 	collect(generals);
+}
+
+void GrainOperator::lastIncrements(ImpulseSet& added) const
+{
+	added.impulses.assign(problem->contacts.size(), Vector3::Zero());
+	added.torques.assign(rollingContacts.size(), Vector3::Zero());
+	const auto collect = [&](const auto& from, const PackList<RollingPack>& torques) {
+		for (std::size_t i = 0; i < from.size(); ++i)
+			for (int lane = 0; lane < packLanes; ++lane) {
+				const std::int32_t id = from[i].id[lane];
+				if (id < 0) continue;
+				added.impulses[id] = inGlobalAxes(from[i], from[i].increment, lane);
+				if (rollingOf.empty() || rollingOf[id] < 0) continue;
+				for (int k = 0; k < 3; ++k) added.torques[rollingOf[id]][k] = torques[i].increment[k][lane];
+			}
+	};
+	collect(packs, rollingPacks);
+	collect(generals, rollingGenerals);
 }
 
 void GrainOperator::addImpulse(const Contact& c, const Vector3& impulse)
@@ -162,45 +180,6 @@ double GrainOperator::certificate()
 	}
 	maxApproachSpeed = total.approach;
 	return total.residual.value();
-}
-
-CrushedContacts GrainOperator::crushed(double tolerance) const
-{
-	CrushedContacts found(tolerance, largestFreeApproach);
-	const auto look = [&](std::int32_t id, double uN, double rN) {
-		if (!(rN > 0 && found.mayBe(uN))) return;
-		const Contact& c = problem->contacts[id];
-		const Body &b1 = problem->bodies[c.body1], &b2 = problem->bodies[c.body2]; // free velocities, until finish()
-		Vector3 free = b2.velocity + c.imageVelocity - b1.velocity + b2.angularVelocity.cross(c.arm2) - b1.angularVelocity.cross(c.arm1);
-		if (hasField()) free += problem->meanField->gradient * (c.arm1 - c.arm2);
-		found.add(free.dot(c.normal) + c.gapVelocity, uN, rN, compliantDelassus(c, contactFrame(c.normal))(0, 0));
-	};
-	eachContact(packs, [&](const BallPack& p, int k) {
-		const Vector3 n(p.normal[0][k], p.normal[1][k], p.normal[2][k]);
-		look(p.id[k], normalVelocity(p, k) + p.gapVelocity[k], impulseOf(p, k).dot(n));
-	});
-	eachContact(generals, [&](const GeneralPack& g, int k) {
-		const Contact& c = problem->contacts[g.id[k]];
-		const double rN = g.impulse[0][k];
-		look(g.id[k], relativeVelocity(c).dot(c.normal) + c.gapVelocity + c.normalCompliance * rN, rN);
-	});
-	return found.any() && mayStandStill() ? CrushedContacts(tolerance, 0) : found;
-}
-
-/// Whether no contact closes when every body, and the mean field, stands still along all directions in which it can move.
-bool GrainOperator::mayStandStill() const
-{
-	const auto at = [&](std::int32_t body, const Vector3& arm) -> Vector3 {
-		if (!driven[body]) return Vector3::Zero();
-		const Body& b = problem->bodies[body];
-		return b.givenVelocity() + b.givenAngularVelocity().cross(arm);
-	};
-	const Matrix3 still = hasField() ? problem->meanField->standingStill() : Matrix3(Matrix3::Zero());
-	for (const Contact& c : problem->contacts) {
-		const Vector3 u = at(c.body2, c.arm2) + c.imageVelocity - at(c.body1, c.arm1) + still * (c.arm1 - c.arm2);
-		if (u.dot(c.normal) + c.gapVelocity < 0) return false;
-	}
-	return true;
 }
 
 void GrainOperator::finish(SolveReport& report)

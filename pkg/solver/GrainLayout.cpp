@@ -19,12 +19,15 @@ void GrainOperator::putSleeper(std::int32_t id)
 	if (!c.ball) turnings.push_back({c.arm1.cross(c.normal), c.arm2.cross(c.normal), branch});
 }
 
-Vector3 GrainOperator::impulseOf(const BallPack& p, int lane) { return {p.impulse[0][lane], p.impulse[1][lane], p.impulse[2][lane]}; }
+Vector3 GrainOperator::inGlobalAxes(const BallPack&, const double (&its)[3][packLanes], int lane)
+{
+	return {its[0][lane], its[1][lane], its[2][lane]};
+}
 
-Vector3 GrainOperator::impulseOf(const GeneralPack& p, int lane)
+Vector3 GrainOperator::inGlobalAxes(const GeneralPack& p, const double (&its)[3][packLanes], int lane)
 {
 	const Vector3 n(p.normal[0][lane], p.normal[1][lane], p.normal[2][lane]), t(p.tangent[0][lane], p.tangent[1][lane], p.tangent[2][lane]);
-	return p.impulse[0][lane] * n + p.impulse[1][lane] * t + p.impulse[2][lane] * n.cross(t);
+	return its[0][lane] * n + its[1][lane] * t + its[2][lane] * n.cross(t);
 }
 
 /// What general contacts ask for of their bodies.

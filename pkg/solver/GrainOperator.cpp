@@ -19,13 +19,9 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 	const auto& contacts = problem->contacts;
 	state.resize(bodies.size() + 1);
 	movable.resize(bodies.size());
-	driven.resize(bodies.size());
 	crew = &hands;
 	together = isWorthThreads(contacts.size());
-	inRuns(bodies.size(), [&](std::size_t i) {
-		movable[i] = !bodies[i].inverseMass.isZero(0) || !bodies[i].inverseInertia.isZero(0);
-		driven[i] = !bodies[i].givenVelocity().isZero(0) || !bodies[i].givenAngularVelocity().isZero(0);
-	});
+	inRuns(bodies.size(), [&](std::size_t i) { movable[i] = !bodies[i].inverseMass.isZero(0) || !bodies[i].inverseInertia.isZero(0); });
 	takeSeats();
 	inRuns(bodies.size(), [&](std::size_t i) {
 		BodyState& its = stateOf(std::int32_t(i));

@@ -5,7 +5,7 @@
 #include "BodyTree.hpp"
 #include "Colouring.hpp"
 #include "Crew.hpp"
-#include "CrushedContacts.hpp"
+#include "ImpulseSet.hpp"
 #include "NaturalMap.hpp"
 #include "PackList.hpp"
 #include "RollingContact.hpp"
@@ -42,9 +42,10 @@ public:
 	void keep();
 	void exchangeKept();
 
-	/// Contacts that impulses, however large, do not stop, at the point of the last certificate(). None where standing still is admissible for all
-	/// that can move: then there is a solution, however slowly it is approached (a light grain between a wall and a heavy one).
-	CrushedContacts crushed(double tolerance) const;
+	/// Approach at the point of the last certificate() over the largest without any impulse.
+	double approachLeft() const { return maxApproachSpeed > 0 ? maxApproachSpeed / largestFreeApproach : 0; }
+	/// What the last visit of each contact has added.
+	void lastIncrements(ImpulseSet& added) const;
 
 	/// Writes velocities, impulses and status of the last certificate() into the problem, and the counts into the report.
 	void finish(SolveReport& report);
@@ -112,9 +113,8 @@ private:
 
 	std::vector<BodyState> state, sweepStart, direction; // by seat: velocities now, at the start of the last sweep, and of the search direction
 	std::vector<std::uint8_t> movable;
-	std::vector<std::uint8_t> driven; // by body: it moves along directions in which no impulse moves it
-	std::vector<Vector3> impulses;	  // per contact, global axes, inside the cone: those of the start, and from finish() on those of the end
-	std::vector<Vector3> kept;		  // likewise
+	std::vector<Vector3> impulses; // per contact, global axes, inside the cone: those of the start, and from finish() on those of the end
+	std::vector<Vector3> kept;	   // likewise
 	std::vector<RollingContact> rollingContacts; // parallel to GrainProblem::rolling
 	std::vector<Vector3> keptTorques;
 	std::vector<std::int32_t> rollingOf; // by contact, -1: none; empty where no contact has rolling friction
@@ -215,8 +215,8 @@ private:
 	}
 	void putBall(std::size_t at, int lane, std::int32_t id);
 	void putGeneral(std::size_t at, int lane, std::int32_t id);
-	static Vector3 impulseOf(const BallPack& pack, int lane);
-	static Vector3 impulseOf(const GeneralPack& pack, int lane);
+	static Vector3 inGlobalAxes(const BallPack& pack, const double (&its)[3][packLanes], int lane);
+	static Vector3 inGlobalAxes(const GeneralPack& pack, const double (&its)[3][packLanes], int lane);
 	void takeMobilities();
 	void forgetLayout();
 	void putSleeper(std::int32_t id);
@@ -230,7 +230,6 @@ private:
 	void visit(const Chunk& chunk, SweepNorms& norms, Extrapolation by, FieldPass* field);
 	void collectImpulses(std::vector<Vector3>& r);
 	double speedsAt(const Contact& c) const;
-	bool mayStandStill() const;
 	void freeVelocities();
 	void rebuildVelocities();
 	void sumMoment();

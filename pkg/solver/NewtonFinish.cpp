@@ -17,13 +17,13 @@ template <int D> int NewtonFinish<D>::improve(CertifiedPoint<D>& best, double to
 		blocks.impulses(point);
 		if (!step.compute(point, velocity, damping, next)) return done;
 		blocks.setImpulses(next);
-		certify(blocks, tolerance, best);
+		certify(blocks, best);
 		if (best.residual <= tolerance) return done;
 		blocks.sweep({});
 		blocks.sweep({});
 		const double residual = blocks.certificate();
 		if (!std::isfinite(residual)) return done;
-		certify(blocks, tolerance, best);
+		certify(blocks, best);
 		if (best.residual <= tolerance) return done;
 		damping = std::max(leastDamping, 0.3 * std::min(damping, residual));
 	}

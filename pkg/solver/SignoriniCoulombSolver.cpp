@@ -2,6 +2,7 @@
 #include "SignoriniCoulombSolver.hpp"
 
 #include "GrainOperator.hpp"
+#include "GrainSqueeze.hpp"
 #include "GuardedLoop.hpp"
 
 #include <cmath>
@@ -14,6 +15,8 @@ namespace contactdynamics {
 
 struct SignoriniCoulombSolver::Workspace {
 	GrainOperator grains, rival;
+	GrainSqueeze squeeze;
+	ImpulseSet added;
 	std::optional<Crew> crew;
 
 	/// Kept while the number of threads stays the same, also over small problems in between.
@@ -23,7 +26,7 @@ struct SignoriniCoulombSolver::Workspace {
 		if (!crew || crew->threads() != threads) crew.emplace(threads);
 		return *crew;
 	}
-	bool runsAway(const GrainProblem& free, const GrainProblem& solved, const SolverOptions& options, int done, const CrushedContacts& crushed);
+	bool runsAway(const GrainOperator& winner, const GrainProblem& solved, const SolverOptions& options, int done);
 };
 
 SignoriniCoulombSolver::SignoriniCoulombSolver() : workspace(std::make_unique<Workspace>()) {}
@@ -113,20 +116,20 @@ int leadOfMomentum(std::size_t movingBodies)
 
 } // namespace
 
-/// Whether contacts that are crushed at a solution still are when the sweeps go on from there.
-/// @param free  the problem before the solve;  @param crushed  what the operator found at the solution
-bool SignoriniCoulombSolver::Workspace::runsAway(const GrainProblem& free, const GrainProblem& solved, const SolverOptions& options, int done,
-												 const CrushedContacts& crushed)
+/// Whether the impulses of a solution grow without bound when the sweeps go on from there, see Squeeze.hpp.
+bool SignoriniCoulombSolver::Workspace::runsAway(const GrainOperator& winner, const GrainProblem& solved, const SolverOptions& options, int done)
 {
-	GrainProblem further = free;
-	for (std::size_t i = 0; i < further.contacts.size(); ++i) further.contacts[i].impulse = solved.contacts[i].impulse;
-	further.rolling = solved.rolling;
+	winner.lastIncrements(added);
+	if (squeeze.factor(solved, added) < Squeeze::suspected) return false;
+	GrainProblem further = squeeze.from(solved);
 	SolverOptions endless = options;
 	endless.tolerance = std::numeric_limits<double>::min();
-	endless.maxIterations = CrushedContacts::furtherSweeps(done);
+	endless.maxIterations = Squeeze::furtherSweeps(done);
 	rival.start(further, options.acceleration != Acceleration::none, *crew);
 	signoriniCoulombLoop(rival, endless);
-	return crushed.stay(rival.crushed(options.tolerance));
+	SolveReport report;
+	rival.finish(report);
+	return squeeze.factor(further, ImpulseSet::between(solved, further)) >= GrainSqueeze::certain;
 }
 
 SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOptions& options)
@@ -153,13 +156,10 @@ SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOpt
 	GrainOperator& winner = result.byRival ? rival : grains;
 	const bool converged = result.residual <= options.tolerance;
 	report.status = converged ? SolveStatus::converged : SolveStatus::maxIterations;
-	const CrushedContacts crushed = converged ? winner.crushed(options.tolerance) : CrushedContacts(1, 0);
-	if (crushed.any()) {
-		const GrainProblem free = problem; // NOLINT(performance-unnecessary-copy-initialization): finish() writes to the problem it refers to
-		winner.finish(report);
-		if (workspace->runsAway(free, problem, options, result.iterations, crushed)) report.status = SolveStatus::unbounded;
-	} else
-		winner.finish(report);
+	const bool doubtful = converged && winner.approachLeft() >= Squeeze::leastApproach && !GrainSqueeze::mayStandStill(problem);
+	if (doubtful) workspace->squeeze.keepFree(problem);
+	winner.finish(report);
+	if (doubtful && workspace->runsAway(winner, problem, options, result.iterations)) report.status = SolveStatus::unbounded;
 	return report;
 }
 

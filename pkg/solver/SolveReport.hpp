@@ -7,7 +7,7 @@ enum class SolveStatus {
 	converged,	   ///< residual <= tolerance at the returned point
 	maxIterations, ///< residual > tolerance; the point, the best one kept (plain sweeps: the last), is in the cones and goes with the velocities
 	notFinite,	   ///< input or iterate not finite: bodies and impulses are left as given
-	unbounded	   ///< the tolerance is met, but by impulses that grow without bound while contacts go on closing, see CrushedContacts.hpp
+	unbounded	   ///< the tolerance is met, but by impulses that grow without bound while contacts go on closing, see Squeeze.hpp
 };
 
 struct SolveReport {

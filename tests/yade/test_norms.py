@@ -139,3 +139,18 @@ def test_a_grain_squeezed_by_driven_walls_is_not_called_converged(speeds: tuple[
     state(left).vel = state(right).vel = Vector3(0, 0, 0)
     steps(2)
     assert cd().converged
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4])
+def test_a_load_on_a_floor_that_rises_is_not_called_unsolvable(tolerance: float) -> None:
+    """Nineteen balls under one a thousand times as heavy: the floor lifts them all, though the sweeps take long to notice."""
+    lowest = box((0, 0, -0.5), (20, 20, 0.5))
+    state(lowest).vel = Vector3(0, 0, 0.1)
+    for height in range(20):
+        grain((0, 0, 0.5 + height), radius=0.5)
+    state(20).mass *= 1000
+    state(20).inertia *= 1000
+    equip(1e-3, tolerance=tolerance)
+    for _ in range(60):
+        O.step()
+        assert cd().converged or cd().residual > tolerance, O.iter  # short of sweeps is not unsolvable

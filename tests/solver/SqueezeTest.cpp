@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What cannot be solved is told from what is only hard: chains between driven walls, heaps around them, high columns, heavy loads, loose tolerances.
+#include "BlockScenes.hpp"
+#include "Scenes.hpp"
+#include "pkg/solver/BlockSqueeze.hpp"
+#include "pkg/solver/GrainSqueeze.hpp"
+#include "pkg/solver/SignoriniCoulombSolver.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace contactdynamics;
+
+namespace {
+
+/// Masses of 1 kg, the last one of its own, on a line that cannot turn, each touching the next; the first touches a floor, the last, if so, a lid.
+/// All fall with the speed given, the lid comes down with its own [m/s].
+BlockProblem column(int masses, bool lid, double lidSpeed, double fall = 1, double last = 1)
+{
+	scenes::DenseMatrix H = scenes::DenseMatrix::Zero(2 * masses, 2 * (masses + lid));
+	Eigen::VectorXd v = Eigen::VectorXd::Zero(2 * masses);
+	for (int i = 0; i < masses + lid; ++i)
+		for (int k = 0; k < 2; ++k) {
+			if (i < masses) H(2 * i + k, 2 * i + k) = 1;
+			if (i > 0) H(2 * (i - 1) + k, 2 * i + k) = -1;
+		}
+	for (int i = 0; i < masses; ++i) v[2 * i] = -fall;
+	scenes::DenseMatrix inverseMass = scenes::DenseMatrix::Identity(2 * masses, 2 * masses);
+	inverseMass.bottomRightCorner(2, 2) /= last;
+	BlockProblem problem = scenes::blockProblem(2, H, inverseMass, v, 0.3);
+	if (lid) problem.q[2 * masses] -= lidSpeed;
+	return problem;
+}
+
+/// Both problems in one, with nothing in common.
+BlockProblem together(const BlockProblem& a, const BlockProblem& b)
+{
+	BlockProblem both = a;
+	const int blocks = int(a.column.size()), contacts = int(a.contacts());
+	for (std::size_t i = 1; i < b.rowStart.size(); ++i) both.rowStart.push_back(b.rowStart[i] + blocks);
+	for (const int j : b.column) both.column.push_back(j + contacts);
+	const auto append = [](std::vector<double>& to, const std::vector<double>& from) { to.insert(to.end(), from.begin(), from.end()); };
+	append(both.blocks, b.blocks);
+	append(both.q, b.q);
+	append(both.friction, b.friction);
+	append(both.impulse, b.impulse);
+	return both;
+}
+
+SolveStatus statusOf(BlockProblem problem, double tolerance, Measure measure, bool finish = true, int sweeps = 20000)
+{
+	SolverOptions options;
+	options.tolerance = tolerance;
+	options.maxIterations = sweeps;
+	options.newtonFinish = finish;
+	return solve(problem, options, measure).status;
+}
+
+} // namespace
+
+TEST(Squeeze, BetweenDrivenWalls)
+{
+	for (const Measure measure : {Measure::naturalMap, Measure::siconos})
+		for (const double tolerance : {1e-2, 1e-4, 1e-8})
+			for (const bool finish : {false, true})
+				for (const int masses : {1, 3, 10})
+					for (const double fall : {1.0, 0.0}) {
+						const SolveStatus status = statusOf(column(masses, true, 2, fall), tolerance, measure, finish);
+						// Impulses grow by at most the approach in each sweep of so many masses, so the tightest tolerance may be out of reach.
+						// At rest the contact that is left closing has no approach of its own, and a loose tolerance is met before its impulse tells.
+						if (tolerance == 1e-4 || (tolerance > 1e-4 && fall > 0)) {
+							EXPECT_EQ(status, SolveStatus::unbounded) << tolerance << ' ' << masses << ' ' << fall;
+						} else if (tolerance < 1e-4) {
+							EXPECT_NE(status, SolveStatus::converged) << tolerance << ' ' << masses << ' ' << fall;
+						}
+					}
+}
+
+TEST(Squeeze, OneAmongManyOthers)
+{
+	scenes::Wall wall;
+	wall.rows = 6;
+	const BlockProblem heap = scenes::wall(wall);
+	const BlockProblem flat = column(1, true, 2);
+	BlockProblem crushed = flat;
+	crushed.dimension = 2;
+	scenes::Wall plane = wall;
+	plane.dimension = 2;
+	EXPECT_EQ(statusOf(together(scenes::wall(plane), crushed), 1e-4, Measure::naturalMap), SolveStatus::unbounded);
+	EXPECT_EQ(statusOf(scenes::wall(plane), 1e-4, Measure::naturalMap), SolveStatus::converged);
+	EXPECT_EQ(statusOf(heap, 1e-4, Measure::naturalMap), SolveStatus::converged);
+}
+
+// The lid that only follows, and columns whose impulses are hundreds of times what stops one mass: hard, but solvable.
+TEST(Squeeze, NoFalseAlarm)
+{
+	for (const double tolerance : {1e-1, 1e-2, 1e-4})
+		for (const int masses : {1, 10, 60, 200})
+			for (const bool finish : {false, true})
+				for (const Measure measure : {Measure::naturalMap, Measure::siconos}) {
+					EXPECT_NE(statusOf(column(masses, false, 0), tolerance, measure, finish, 3000), SolveStatus::unbounded)
+							<< tolerance << ' ' << masses;
+					EXPECT_NE(statusOf(column(masses, true, -1), tolerance, measure, finish, 3000), SolveStatus::unbounded)
+							<< tolerance << ' ' << masses;
+				}
+}
+
+namespace {
+
+/// So many balls of 1 kg in a row along x between two walls that come with the speeds given; the balls fly with theirs [m/s].
+GrainProblem rowOfBalls(int balls, double leftWall, double rightWall, double flight)
+{
+	GrainProblem problem;
+	problem.bodies.push_back(scenes::wall());
+	for (int i = 0; i < balls; ++i) problem.bodies.push_back(scenes::ball(1, 1, {flight, 0, 0}));
+	problem.bodies.push_back(scenes::wall());
+	problem.bodies.front().velocity[0] = leftWall;
+	problem.bodies.back().velocity[0] = rightWall;
+	for (int i = 0; i <= balls; ++i) problem.contacts.push_back(scenes::touch(i, i > 0, i + 1, i < balls, Vector3::UnitX(), 0.3));
+	for (std::size_t i = 0; i < problem.bodies.size(); ++i) problem.bodies[i].centre = {2.0 * double(i), 0, 0};
+	return problem;
+}
+
+/// A point of a problem: normal impulses, and the velocities of the contacts as they are to be [N s], [m/s].
+GrainProblem at(GrainProblem problem, const std::vector<double>& impulses, const std::vector<double>& uN)
+{
+	for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+		problem.contacts[i].impulse = impulses[i] * problem.contacts[i].normal;
+		problem.contacts[i].relativeVelocity = uN[i] * problem.contacts[i].normal;
+	}
+	return problem;
+}
+
+/// Of all impulses, or of what they have that others lack.
+double factorOf(const GrainProblem& free, const GrainProblem& point, const GrainProblem* others = nullptr)
+{
+	GrainProblem none = point;
+	for (Contact& c : none.contacts) c.impulse.setZero();
+	for (RollingFriction& one : none.rolling) one.torque.setZero();
+	GrainSqueeze squeeze;
+	squeeze.keepFree(free);
+	return squeeze.factor(point, ImpulseSet::between(others ? *others : none, point));
+}
+
+} // namespace
+
+TEST(Squeeze, WorkOverWhatIsNotInBalance)
+{
+	// Free approaches 1.5 (left) and 0.5; loads of 10 and 7 N s: work 10 x 0.5 + 7 x 1 = 12, 3 not in balance.
+	const GrainProblem free = rowOfBalls(1, 1, -1, -0.5);
+	GrainProblem point = at(free, {10, 7}, {-0.5, -1});
+	EXPECT_DOUBLE_EQ(factorOf(free, point), 12 / (1.5 * 3));
+	EXPECT_DOUBLE_EQ(factorOf(free, at(free, {10, 7}, {0.5, 0})), 0); // nothing closes
+	EXPECT_DOUBLE_EQ(factorOf(free, at(free, {10, 1}, {-3, 5})), 1);  // best without the smaller load: 10 x 3 over 3 (its own approach) x 10
+	const GrainProblem others = at(free, {4, 3}, {0, 0});
+	EXPECT_DOUBLE_EQ(factorOf(free, point, &others), (6 * 0.5 + 4 * 1) / (1.5 * 2));
+	for (Contact& c : point.contacts) c.gapVelocity = 0.25; // what closes is U + s
+	EXPECT_DOUBLE_EQ(factorOf(free, point), (10 * 0.25 + 7 * 0.75) / (1.25 * 3));
+	point.contacts[1].normalCompliance = 1e-6; // gives way, so the other contact has nothing to press against
+	EXPECT_DOUBLE_EQ(factorOf(free, point), 10 * 0.25 / (1.25 * 10));
+}
+
+TEST(Squeeze, BlockedDirectionsAndTorquesCount)
+{
+	GrainProblem free = rowOfBalls(1, 1, -1, 0);
+	GrainProblem point = at(free, {10, 10}, {-1, -1});
+	point.contacts[0].impulse[1] = 3; // friction turns the ball of radius 1: 3 N s and 3 N m s
+	EXPECT_DOUBLE_EQ(factorOf(free, point), 20.0 / 6);
+	free.bodies[1].inverseMass[1] = 0;
+	EXPECT_DOUBLE_EQ(factorOf(free, point), 20.0 / 3);
+	point.rolling = {{0, 1, 1, Vector3::Zero(), {0, 0, 2}}}; // arm2 x r is -3 about z
+	EXPECT_DOUBLE_EQ(factorOf(free, point), 20.0 / 1);
+	free.bodies[1].inverseInertia.setZero();
+	EXPECT_GT(factorOf(free, point), 1e10); // in balance but for round-off
+}
+
+TEST(Squeeze, GroupsAreApart)
+{
+	// A squeezed row beside one in which nothing closes, with loads that are larger and not in balance.
+	const GrainProblem squeezed = rowOfBalls(2, 1, -1, 0);
+	GrainProblem free = rowOfBalls(2, 0, 0, -1), point = free;
+	const int first = int(free.bodies.size());
+	free.bodies.insert(free.bodies.end(), squeezed.bodies.begin(), squeezed.bodies.end());
+	for (Contact c : squeezed.contacts) {
+		c.body1 += first;
+		c.body2 += first;
+		free.contacts.push_back(c);
+	}
+	point = at(free, {900, 500, 200, 50, 49, 50}, {0, 0, 0, -0.5, -0.5, -1});
+	EXPECT_DOUBLE_EQ(factorOf(free, point), (50 * 0.5 + 49 * 0.5 + 50 * 1) / 2); // approach 1, a newton second on either ball
+	// Moving bodies alone can always part, however they press on each other.
+	GrainProblem free2 = rowOfBalls(2, 0, 0, 0);
+	free2.contacts = {free2.contacts[1]};
+	EXPECT_EQ(factorOf(free2, at(free2, {50}, {-5})), 0);
+}
+
+// By virtual work the factor of any impulses at any point is at most the change of velocity that leads to an admissible one, over the approach.
+TEST(Squeeze, NeverMoreThanTheWayToAnAdmissibleMotion)
+{
+	std::mt19937_64 random(3);
+	std::normal_distribution<double> normal;
+	std::uniform_real_distribution<double> uniform;
+	const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+	const auto velocityAt = [](const GrainProblem& p, const Contact& c) -> Vector3 {
+		const Body &a = p.bodies[c.body1], &b = p.bodies[c.body2];
+		return b.velocity + b.angularVelocity.cross(c.arm2) - a.velocity - a.angularVelocity.cross(c.arm1);
+	};
+	int telling = 0;
+	for (int k = 0; k < 2000; ++k) {
+		const int bodies = 2 + int(6 * uniform(random));
+		GrainProblem admissible;
+		for (int i = 0; i < bodies; ++i) admissible.bodies.push_back(i < 2 ? scenes::wall() : scenes::ball(1, 1));
+		for (Body& b : admissible.bodies) b.velocity = vector(), b.angularVelocity = vector();
+		GrainProblem point = admissible, free = admissible;
+		double way = 0;
+		for (int i = 2; i < bodies; ++i) {
+			point.bodies[i].velocity += vector();
+			point.bodies[i].angularVelocity += vector();
+			free.bodies[i].velocity += vector();
+		}
+		for (int i = 0; i < 3 * bodies; ++i) {
+			Contact c = scenes::touch(int(bodies * uniform(random)), 1, int(bodies * uniform(random)), 1, vector().normalized(), 0);
+			if (c.body1 == c.body2) continue;
+			c.ball = false;
+			c.arm1 = vector();
+			c.arm2 = vector();
+			c.gapVelocity = uniform(random) - velocityAt(admissible, c).dot(c.normal); // so admissible it is
+			c.impulse = std::exp(2 * normal(random)) * c.normal;
+			c.relativeVelocity = velocityAt(point, c);
+			point.contacts.push_back(c);
+		}
+		std::vector<double> longestArm(bodies, 0);
+		double largestApproach = 0;
+		for (const Contact& c : point.contacts) {
+			longestArm[c.body1] = std::max(longestArm[c.body1], c.arm1.norm());
+			longestArm[c.body2] = std::max(longestArm[c.body2], c.arm2.norm());
+			largestApproach = std::max(largestApproach, -velocityAt(free, c).dot(c.normal) - c.gapVelocity);
+		}
+		for (int i = 2; i < bodies; ++i) {
+			const Body &from = point.bodies[i], &to = admissible.bodies[i];
+			way = std::max({way, (to.velocity - from.velocity).norm(), longestArm[i] * (to.angularVelocity - from.angularVelocity).norm()});
+		}
+		if (largestApproach == 0) continue;
+		const double factor = factorOf(free, point);
+		ASSERT_LE(factor, 100 * way / largestApproach * (1 + 1e-9)) << k; // A is at least a hundredth of the largest
+		telling += factor > 0.01 * way / largestApproach;
+	}
+	EXPECT_GT(telling, 500); // or the bound would say little
+}
+
+TEST(Squeeze, FactorOfBlocks)
+{
+	// Two masses of 1 kg between floor and lid, whose velocities change by 1 and 1: r.W r = 2 J.
+	const BlockProblem problem = column(2, true, 2);
+	using Vectors = std::vector<Eigen::Vector2d>;
+	const Vectors r{{12, 0}, {11, 0}, {10, 0}}, u{{-0.5, 0}, {-0.5, 0}, {-1, 0}}, others{{2, 0}, {3, 0}, {4, 0}};
+	EXPECT_DOUBLE_EQ(squeezeFactor<2>(problem, r, u), (12 * 0.5 + 11 * 0.5 + 10) / 2.0);
+	EXPECT_DOUBLE_EQ(squeezeFactor<2>(problem, r, u, &others), (10 * 0.5 + 8 * 0.5 + 6) / 8.0); // by 2 and 2
+	EXPECT_EQ(squeezeFactor<2>(problem, r, {{-0.002, 0}, {0, 0}, {0, 0}}), 0);					// too slow, against 1 m/s
+}
+
+// Chains of which each contact keeps a part of the approach, and lids slower than a fall in a step: not noticed before.
+TEST(Squeeze, ChainsAndPackings)
+{
+	SolverOptions options;
+	options.maxIterations = 20000;
+	for (const auto& [balls, lid, flight, tolerance] :
+		 {std::tuple{10, 1.0, 0.0, 1e-2}, {10, 1.0, 0.0, 1e-4}, {20, 1.0, 0.0, 1e-4}, {10, 0.05, -1.0, 1e-4}, {1, 0.01, -1.0, 1e-4}})
+		for (const Acceleration acceleration : {Acceleration::none, Acceleration::momentum}) {
+			options.tolerance = tolerance;
+			options.acceleration = acceleration;
+			GrainProblem problem = rowOfBalls(balls, 0, -lid, flight);
+			const SolveReport report = SignoriniCoulombSolver().solve(problem, options);
+			ASSERT_LE(report.residual, tolerance);
+			EXPECT_EQ(report.status, SolveStatus::unbounded) << balls << ' ' << lid << ' ' << flight << ' ' << tolerance;
+		}
+}
+
+// All go up with the floor; as the impulses of a step start the next one, slow modes of the last one are still there.
+TEST(Squeeze, NoFalseAlarmUnderAHeavyLoad)
+{
+	for (const double tolerance : {1e-2, 1e-3, 1e-4})
+		for (const double load : {1.0, 1e3, 1e4})
+			for (const int balls : {5, 20, 60}) {
+				GrainProblem problem = scenes::column(balls, 1);
+				problem.bodies[0].velocity[2] = 0.1;
+				problem.bodies.back().inverseMass /= load;
+				problem.bodies.back().inverseInertia /= load;
+				SignoriniCoulombSolver solver;
+				SolverOptions options;
+				options.tolerance = tolerance;
+				options.maxIterations = 5000;
+				for (int step = 0; step < 20; ++step) {
+					EXPECT_NE(solver.solve(problem, options).status, SolveStatus::unbounded)
+							<< tolerance << ' ' << load << ' ' << balls << ' ' << step;
+					for (std::size_t i = 1; i < problem.bodies.size(); ++i) problem.bodies[i].velocity[2] -= 1;
+				}
+			}
+	for (const double tolerance : {1e-2, 1e-3, 1e-4})
+		for (const double load : {1e3, 1e4})
+			for (const int masses : {5, 30})
+				for (const Measure measure : {Measure::naturalMap, Measure::siconos})
+					EXPECT_NE(statusOf(column(masses, false, 0, 1, load), tolerance, measure, false), SolveStatus::unbounded)
+							<< tolerance << ' ' << load << ' ' << masses;
+}
