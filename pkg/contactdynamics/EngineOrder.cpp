@@ -2,6 +2,7 @@
 #include "EngineOrder.hpp"
 #include "ContactDynamicsCellController.hpp"
 #include "LawForUs.hpp"
+#include "Requirement.hpp"
 #include <core/BodyContainer.hpp>
 #include <core/InteractionContainer.hpp>
 #include <core/InteractionLoop.hpp>
@@ -14,23 +15,14 @@
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <algorithm>
 #include <sstream>
-#include <stdexcept>
-#include <type_traits>
 
 namespace yade {
 namespace {
-/// @param message  text, or a function that makes it: to put the messages together costs more than to look at the engines, in each step
 template <class Message> void require(bool fulfilled, const Message& message)
 {
-	if (fulfilled) return;
-	const auto fail = [](const std::string& what) {
-		throw std::runtime_error("ContactDynamicsEngine: " + what + " contactdynamics.engines() returns a list in the right order.");
-	};
-	if constexpr (std::is_invocable_v<Message>)
-		fail(message());
-	else
-		fail(message);
+	requireOfScene(fulfilled, message, " contactdynamics.engines() returns a list in the right order.");
 }
+
 /// Engines that add forces or set velocities of some bodies or all: KinematicEngine, ForceEngine, GravityEngine and their kin.
 bool actsOnBodies(const Engine& engine)
 {

@@ -173,6 +173,23 @@ TEST(Squeeze, BlockedDirectionsAndTorquesCount)
 	EXPECT_GT(factorOf(free, point), 1e10); // in balance but for round-off
 }
 
+TEST(Squeeze, AMeanFieldIsOneMoreBody)
+{
+	// Two balls of radius 1 in a cell 4 m wide, each touching the other and its image; the cell is compressed at 1 per second.
+	GrainProblem free;
+	free.bodies = {scenes::ball(1, 1), scenes::ball(1, 1)};
+	free.contacts = {scenes::touch(0, 1, 1, 1, Vector3::UnitX(), 0), scenes::touch(1, 1, 0, 1, Vector3::UnitX(), 0)};
+	free.meanField.emplace();
+	free.meanField->gradient(0, 0) = -1;
+	const GrainProblem point = at(free, {10, 10}, {-1, -1});
+	EXPECT_GT(factorOf(free, point), 1e10); // its motion is given
+	free.meanField->inverseMass(0, 0) = 1;	// branches of 2 m: free approaches of 2 m/s each, and a moment of 40 N m s
+	EXPECT_DOUBLE_EQ(factorOf(free, point), 20 / (4 * (40 / 2.0)));
+	free.meanField->inverseMass(0, 0) = 0;
+	free.meanField->inverseMass(1, 1) = 1; // across
+	EXPECT_GT(factorOf(free, point), 1e10);
+}
+
 TEST(Squeeze, GroupsAreApart)
 {
 	// A squeezed row beside one in which nothing closes, with loads that are larger and not in balance.
@@ -218,8 +235,9 @@ TEST(Squeeze, NeverMoreThanTheWayToAnAdmissibleMotion)
 			free.bodies[i].velocity += vector();
 		}
 		for (int i = 0; i < 3 * bodies; ++i) {
-			Contact c = scenes::touch(int(bodies * uniform(random)), 1, int(bodies * uniform(random)), 1, vector().normalized(), 0);
-			if (c.body1 == c.body2) continue;
+			const int body1 = int(bodies * uniform(random)), body2 = int(bodies * uniform(random));
+			if (body1 == body2) continue;
+			Contact c = scenes::touch(body1, 1, body2, 1, vector().normalized(), 0);
 			c.ball = false;
 			c.arm1 = vector();
 			c.arm2 = vector();
