@@ -105,7 +105,7 @@ public:
 			for (std::size_t i = 0; i < lanes.size(); ++i) report.ambiguousContacts += !OneContact2D(diagonalBlock(i)).isUnique(problem.friction[i]);
 	}
 
-	/// The factor of Squeeze.hpp, of the present impulses or of what they have that others lack. From a thousand on it is certain.
+	/// The factor of Squeeze.hpp, of the present impulses or of what they have that others lack.
 	double squeeze(const std::vector<Vector>* others = nullptr)
 	{
 		std::vector<Vector> r, u;
@@ -113,7 +113,6 @@ public:
 		velocities(u);
 		return squeezeFactor<D>(problem, r, u, others);
 	}
-	static constexpr double certainSqueeze = 1000;
 
 	void impulses(std::vector<Vector>& r) const
 	{

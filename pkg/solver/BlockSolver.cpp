@@ -143,7 +143,7 @@ private:
 		further.maxIterations = Squeeze::furtherSweeps(report.iterations);
 		further.tolerance = std::numeric_limits<double>::min();
 		signoriniCoulombLoop(blocks, further);
-		return blocks.squeeze(&here) >= BlockOperator<D>::certainSqueeze;
+		return blocks.squeeze(&here) >= certainSqueeze;
 	}
 
 	double last = 0; // residual after the last sweep

@@ -2,10 +2,14 @@
 #pragma once
 
 #include "BlockProblem.hpp"
+#include "JoinedGroups.hpp"
 #include "ProblemBlocks.hpp"
 #include "Squeeze.hpp"
 
 namespace contactdynamics {
+
+/// A factor of what further sweeps add from which on there is no solution; of all impulses, from which on they are no point to go on from.
+inline constexpr double certainSqueeze = 1000;
 
 /// The factor of Squeeze.hpp where W is explicit and the bodies are unknown: - sum r_N u_N over r.W r. What is missing to a solution is at least so
 /// many times r, in the norm of energy: - sum r_N u_N <= r.W (r* - r) <= |r| |r* - r|. A mass that is a million times that of the one between it and

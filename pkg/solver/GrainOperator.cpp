@@ -21,7 +21,7 @@ void GrainOperator::start(GrainProblem& given, bool accelerate, Crew& hands)
 	movable.resize(bodies.size());
 	crew = &hands;
 	together = isWorthThreads(contacts.size());
-	inRuns(bodies.size(), [&](std::size_t i) { movable[i] = !bodies[i].inverseMass.isZero(0) || !bodies[i].inverseInertia.isZero(0); });
+	inRuns(bodies.size(), [&](std::size_t i) { movable[i] = bodies[i].moves(); });
 	takeSeats();
 	inRuns(bodies.size(), [&](std::size_t i) {
 		BodyState& its = stateOf(std::int32_t(i));

@@ -22,6 +22,7 @@ struct Body {
 	/// Of mass, in a periodic cell that of any image: tells who is whose neighbour, for the order of the sweeps and for nothing else [m].
 	Vector3 centre = Vector3::Zero();
 
+	bool moves() const { return !inverseMass.isZero(0) || !inverseInertia.isZero(0); } ///< by impulses
 	/// Parts that no impulse changes; the others are zero.
 	Vector3 givenVelocity() const { return (inverseMass.array() == 0).select(velocity, Vector3::Zero()); }
 	Vector3 givenAngularVelocity() const { return (inverseInertia.diagonal().array() == 0).select(angularVelocity, Vector3::Zero()); }

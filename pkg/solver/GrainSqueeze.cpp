@@ -2,20 +2,39 @@
 #include "GrainSqueeze.hpp"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace contactdynamics {
 
+namespace {
+
+Matrix3 gradientOf(const std::optional<MeanField>& field) { return field ? field->gradient : Matrix3(Matrix3::Zero()); }
+Matrix3 gradientStandingStill(const std::optional<MeanField>& field) { return field ? field->standingStill() : Matrix3(Matrix3::Zero()); }
+
+/// U_N + s of a contact [m/s].
+/// @param at  velocity of a body at the end of an arm
+template <class Velocity> double separation(const Contact& c, const Velocity& at, const Matrix3& gradient)
+{
+	const Vector3 u = at(c.body2, c.arm2) + c.imageVelocity - at(c.body1, c.arm1) + gradient * (c.arm1 - c.arm2);
+	return u.dot(c.normal) + c.gapVelocity;
+}
+
+/// The same when every body, and the mean field, stands still along all directions in which it can move.
+double separationStandingStill(const Contact& c, const std::vector<Body>& bodies, const Matrix3& gradient)
+{
+	const auto at = [&](std::int32_t body, const Vector3& arm) -> Vector3 {
+		return bodies[body].givenVelocity() + bodies[body].givenAngularVelocity().cross(arm);
+	};
+	return separation(c, at, gradient);
+}
+
+} // namespace
+
 bool GrainSqueeze::mayStandStill(const GrainProblem& problem)
 {
-	const Matrix3 still = problem.meanField ? problem.meanField->standingStill() : Matrix3(Matrix3::Zero());
-	const auto at = [&](std::int32_t body, const Vector3& arm) -> Vector3 {
-		const Body& b = problem.bodies[body];
-		return b.givenVelocity() + b.givenAngularVelocity().cross(arm);
-	};
-	return std::all_of(problem.contacts.begin(), problem.contacts.end(), [&](const Contact& c) {
-		const Vector3 u = at(c.body2, c.arm2) + c.imageVelocity - at(c.body1, c.arm1) + still * (c.arm1 - c.arm2);
-		return u.dot(c.normal) + c.gapVelocity >= 0;
-	});
+	const Matrix3 gradient = gradientStandingStill(problem.meanField);
+	return std::all_of(problem.contacts.begin(), problem.contacts.end(),
+					   [&](const Contact& c) { return separationStandingStill(c, problem.bodies, gradient) >= 0; });
 }
 
 void GrainSqueeze::keepFree(const GrainProblem& problem)
@@ -26,27 +45,24 @@ void GrainSqueeze::keepFree(const GrainProblem& problem)
 
 GrainProblem GrainSqueeze::from(const GrainProblem& solved) const { return {freeBodies, solved.contacts, solved.rolling, freeField}; }
 
-double GrainSqueeze::freeApproach(const Contact& c) const
-{
-	const Body &b1 = freeBodies[c.body1], &b2 = freeBodies[c.body2];
-	Vector3 u = b2.velocity + c.imageVelocity - b1.velocity + b2.angularVelocity.cross(c.arm2) - b1.angularVelocity.cross(c.arm1);
-	if (freeField) u += freeField->gradient * (c.arm1 - c.arm2);
-	return std::max(0.0, -u.dot(c.normal) - c.gapVelocity);
-}
-
 /// Loaded contacts by falling impulse, and the lengths that go with them.
 void GrainSqueeze::collect(const GrainProblem& point, const ImpulseSet& of)
 {
+	const auto freely = [&](std::int32_t body, const Vector3& arm) -> Vector3 {
+		return freeBodies[body].velocity + freeBodies[body].angularVelocity.cross(arm);
+	};
+	const Matrix3 gradient = gradientOf(freeField), gradientStill = gradientStandingStill(freeField);
 	loaded.clear();
 	longestArm.assign(point.bodies.size(), 0);
 	largestApproach = longestBranch = 0;
 	for (std::size_t i = 0; i < point.contacts.size(); ++i) {
 		const Contact& c = point.contacts[i];
-		const double approach = freeApproach(c);
-		largestApproach = std::max(largestApproach, approach);
+		const double freeApproach = -separation(c, freely, gradient), uN = c.relativeVelocity.dot(c.normal) + c.gapVelocity;
+		largestApproach = std::max(largestApproach, freeApproach);
 		const Vector3& r = of.impulses[i];
-		if (c.normalCompliance != 0 || c.tangentialCompliance != 0 || !(r.dot(c.normal) > 0)) continue;
-		loaded.push_back({r.dot(c.normal), std::int32_t(i), approach, r, Vector3::Zero()});
+		if (c.normalCompliance != 0 || !(r.dot(c.normal) > 0)) continue;
+		const bool closesAnyway = separationStandingStill(c, freeBodies, gradientStill) < 0;
+		loaded.push_back({r.dot(c.normal), std::int32_t(i), uN, std::max({0.0, freeApproach, -uN}), closesAnyway, r, Vector3::Zero()});
 		longestArm[c.body1] = std::max(longestArm[c.body1], c.arm1.norm());
 		longestArm[c.body2] = std::max(longestArm[c.body2], c.arm2.norm());
 		longestBranch = std::max(longestBranch, (c.arm1 - c.arm2).norm());
@@ -67,7 +83,7 @@ void GrainSqueeze::Held::add(const Held& other)
 	driven = std::max(driven, other.driven);
 	among += other.among;
 	total += other.total;
-	isDriven = isDriven || other.isDriven;
+	closesAnyway = closesAnyway || other.closesAnyway;
 	moment += other.moment;
 }
 
@@ -88,11 +104,19 @@ double GrainSqueeze::add(std::int32_t body, const Vector3& impulse, const Vector
 	return unbalanced(body) - before;
 }
 
-double GrainSqueeze::ofMoment(const Matrix3& moment) const
+/// A component at its limit, and pushed against it, does not give way.
+double GrainSqueeze::ofMoment(const Matrix3& moment, const GrainProblem& point) const
 {
 	if (!freeField || longestBranch == 0) return 0;
-	const Matrix3 push = 0.5 * (moment + moment.transpose());
-	return (freeField->inverseMass.array() > 0).select(push, Matrix3::Zero()).norm() / longestBranch;
+	const Matrix3 push = 0.5 * (moment + moment.transpose()), L = point.meanField->gradient;
+	double left2 = 0;
+	for (int i = 0; i < 3; ++i)
+		for (int j = 0; j < 3; ++j) {
+			const double stretch = 0.5 * (L(i, j) + L(j, i));
+			const bool isHeld = std::abs(stretch) >= freeField->limit * (1 - 1e-12) && stretch * push(i, j) > 0;
+			if (freeField->inverseMass(i, j) > 0 && !isHeld) left2 += push(i, j) * push(i, j);
+		}
+	return std::sqrt(left2) / longestBranch;
 }
 
 double GrainSqueeze::factor(const GrainProblem& point, const ImpulseSet& of)
@@ -104,25 +128,24 @@ double GrainSqueeze::factor(const GrainProblem& point, const ImpulseSet& of)
 	double largest = 0;
 	for (const Loaded& its : loaded) {
 		const Contact& c = point.contacts[its.id];
-		const bool moves1 = moves(freeBodies[c.body1]), moves2 = moves(freeBodies[c.body2]);
+		const bool moves1 = freeBodies[c.body1].moves(), moves2 = freeBodies[c.body2].moves();
 		if (!moves1 && !moves2) continue;
 		if (moves1 && moves2) groups.join(c.body1, c.body2);
 		Held& held = groups.of(moves1 ? c.body1 : c.body2);
 		if (moves1) held.imbalance += add(c.body1, -its.impulse, -c.arm1.cross(its.impulse) - its.torque);
 		if (moves2) held.imbalance += add(c.body2, its.impulse, c.arm2.cross(its.impulse) + its.torque);
 		if (freeField) held.moment += its.impulse * (c.arm1 - c.arm2).transpose();
-		const double uN = c.relativeVelocity.dot(c.normal) + c.gapVelocity;
-		held.work -= its.normal * uN;
+		held.work -= its.normal * its.uN;
 		held.total += its.normal;
-		held.isDriven = held.isDriven || !moves1 || !moves2 || freeField || !c.imageVelocity.isZero(0);
+		held.closesAnyway = held.closesAnyway || its.closesAnyway;
 		if (moves1 && moves2)
-			held.among += its.freeApproach;
+			held.among += its.approach;
 		else
-			held.driven = std::max({held.driven, its.freeApproach, -uN});
-		if (!held.isDriven) continue; // moving bodies alone can always part
+			held.driven = std::max(held.driven, its.approach);
+		if (!held.closesAnyway) continue; // all of it may stand still
 		const double approach = std::max(held.driven + held.among, 0.01 * largestApproach);
 		const double roundOff = 1e-12 * held.total;
-		largest = std::max(largest, held.work / (approach * std::max(roundOff, held.imbalance + ofMoment(held.moment))));
+		largest = std::max(largest, held.work / (approach * std::max(roundOff, held.imbalance + ofMoment(held.moment, point))));
 	}
 	return largest;
 }

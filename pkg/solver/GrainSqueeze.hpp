@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ImpulseSet.hpp"
+#include "JoinedGroups.hpp"
 #include "Squeeze.hpp"
 
 namespace contactdynamics {
@@ -10,17 +11,17 @@ namespace contactdynamics {
 /// by that many times A.
 ///
 /// |H r| is the sum over the bodies of the length of the force impulse, plus that of the torque impulse over the longest arm, each without the
-/// blocked directions; for a mean field that can change it is the symmetric moment over the longest branch. A is the largest free approach of a
-/// contact with a driven body, plus those of all contacts between moving ones, which may have to move apart one after the other (overlaps in a row, a
-/// cell that is compressed). Compliant contacts are left out: they give way.
+/// blocked directions; for a mean field the symmetric moment over the longest branch, in the components that can give way. The approach of a contact
+/// is the one without impulses or the present one, whichever is larger. A is the largest of those of a group with bodies that do not move, plus the
+/// sum of those between moving ones, which may have to move apart one after the other (overlaps in a row, a cell that is compressed); at least a
+/// hundredth of the largest anywhere. Left out are contacts whose normal compliance gives way, and groups that close nowhere when they stand still.
 class GrainSqueeze {
 public:
-	/// Of the columns, chains and heaps between walls that move in doc/grains.rst, solvable ones reach it only where half of the contacts overlap, or
-	/// at a tolerance of 0.1.
-	static constexpr double certain = 10;
+	/// In a chain that is squeezed what is added comes into balance without end. Wedges below this escape at less than a hundred times A.
+	static constexpr double certain = 100;
 
-	/// Whether no contact closes when every body, and the mean field, stands still along all directions in which it can move: then there is a
-	/// solution, however slowly it is approached.
+	/// Whether no contact closes when every body, and the mean field, stands still along all directions in which it can move: then nothing is
+	/// squeezed, however slowly a solution is approached (a light grain between a wall and a heavy one).
 	static bool mayStandStill(const GrainProblem& problem);
 
 	/// Keeps what a solve is about to overwrite.
@@ -35,12 +36,14 @@ private:
 	struct Loaded {
 		double normal; // impulse [N s]
 		std::int32_t id;
-		double freeApproach; // [m/s]
+		double uN;		   // at the point, gap velocity included [m/s]
+		double approach;   // there or without impulses, whichever is larger [m/s]
+		bool closesAnyway; // when everything stands still that can move
 		Vector3 impulse, torque;
 	};
 	struct Held { // a group of bodies, and the contacts so far
 		double work = 0, imbalance = 0, driven = 0, among = 0, total = 0;
-		bool isDriven = false;
+		bool closesAnyway = false;
 		Matrix3 moment = Matrix3::Zero();
 
 		void add(const Held& other);
@@ -54,12 +57,10 @@ private:
 	std::vector<double> longestArm;
 	double largestApproach = 0, longestBranch = 0;
 
-	static bool moves(const Body& b) { return !b.inverseMass.isZero(0) || !b.inverseInertia.isZero(0); }
-	double freeApproach(const Contact& c) const;
 	void collect(const GrainProblem& point, const ImpulseSet& of);
 	double unbalanced(std::int32_t body) const;
 	double add(std::int32_t body, const Vector3& impulse, const Vector3& torque);
-	double ofMoment(const Matrix3& moment) const;
+	double ofMoment(const Matrix3& moment, const GrainProblem& point) const;
 };
 
 } // namespace contactdynamics

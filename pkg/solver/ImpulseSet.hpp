@@ -9,13 +9,17 @@ namespace contactdynamics {
 struct ImpulseSet {
 	std::vector<Vector3> impulses, torques;
 
-	/// What one solution of a problem has that another one lacks.
-	static ImpulseSet between(const GrainProblem& less, const GrainProblem& more)
+	void take(const GrainProblem& from)
 	{
-		ImpulseSet added;
-		for (std::size_t i = 0; i < more.contacts.size(); ++i) added.impulses.push_back(more.contacts[i].impulse - less.contacts[i].impulse);
-		for (std::size_t k = 0; k < more.rolling.size(); ++k) added.torques.push_back(more.rolling[k].torque - less.rolling[k].torque);
-		return added;
+		impulses.clear();
+		torques.clear();
+		for (const Contact& c : from.contacts) impulses.push_back(c.impulse);
+		for (const RollingFriction& one : from.rolling) torques.push_back(one.torque);
+	}
+	void subtract(const GrainProblem& others)
+	{
+		for (std::size_t i = 0; i < impulses.size(); ++i) impulses[i] -= others.contacts[i].impulse;
+		for (std::size_t k = 0; k < torques.size(); ++k) torques[k] -= others.rolling[k].torque;
 	}
 };
 

@@ -119,8 +119,13 @@ int leadOfMomentum(std::size_t movingBodies)
 /// Whether the impulses of a solution grow without bound when the sweeps go on from there, see Squeeze.hpp.
 bool SignoriniCoulombSolver::Workspace::runsAway(const GrainOperator& winner, const GrainProblem& solved, const SolverOptions& options, int done)
 {
+	const auto factor = [&] { return squeeze.factor(solved, added); };
 	winner.lastIncrements(added);
-	if (squeeze.factor(solved, added) < Squeeze::suspected) return false;
+	if (factor() < Squeeze::suspected) {
+		if (done >= Squeeze::sweepsToBalance) return false;
+		added.take(solved); // what few sweeps add is not in balance yet, but what earlier steps have left may be
+		if (factor() < Squeeze::suspected) return false;
+	}
 	GrainProblem further = squeeze.from(solved);
 	SolverOptions endless = options;
 	endless.tolerance = std::numeric_limits<double>::min();
@@ -129,7 +134,9 @@ bool SignoriniCoulombSolver::Workspace::runsAway(const GrainOperator& winner, co
 	signoriniCoulombLoop(rival, endless);
 	SolveReport report;
 	rival.finish(report);
-	return squeeze.factor(further, ImpulseSet::between(solved, further)) >= GrainSqueeze::certain;
+	added.take(further);
+	added.subtract(solved);
+	return squeeze.factor(further, added) >= GrainSqueeze::certain;
 }
 
 SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOptions& options)

@@ -6,6 +6,7 @@
 #include "pkg/solver/GrainSqueeze.hpp"
 #include "pkg/solver/SignoriniCoulombSolver.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 using namespace contactdynamics;
@@ -133,12 +134,12 @@ GrainProblem at(GrainProblem problem, const std::vector<double>& impulses, const
 /// Of all impulses, or of what they have that others lack.
 double factorOf(const GrainProblem& free, const GrainProblem& point, const GrainProblem* others = nullptr)
 {
-	GrainProblem none = point;
-	for (Contact& c : none.contacts) c.impulse.setZero();
-	for (RollingFriction& one : none.rolling) one.torque.setZero();
+	ImpulseSet impulses;
+	impulses.take(point);
+	if (others) impulses.subtract(*others);
 	GrainSqueeze squeeze;
 	squeeze.keepFree(free);
-	return squeeze.factor(point, ImpulseSet::between(others ? *others : none, point));
+	return squeeze.factor(point, impulses);
 }
 
 } // namespace
@@ -179,15 +180,24 @@ TEST(Squeeze, AMeanFieldIsOneMoreBody)
 	GrainProblem free;
 	free.bodies = {scenes::ball(1, 1), scenes::ball(1, 1)};
 	free.contacts = {scenes::touch(0, 1, 1, 1, Vector3::UnitX(), 0), scenes::touch(1, 1, 0, 1, Vector3::UnitX(), 0)};
+	for (Contact& c : free.contacts) c.gapVelocity = -0.5; // and they overlap
 	free.meanField.emplace();
 	free.meanField->gradient(0, 0) = -1;
-	const GrainProblem point = at(free, {10, 10}, {-1, -1});
+	GrainProblem point = at(free, {10, 10}, {-1, -1});
 	EXPECT_GT(factorOf(free, point), 1e10); // its motion is given
-	free.meanField->inverseMass(0, 0) = 1;	// branches of 2 m: free approaches of 2 m/s each, and a moment of 40 N m s
-	EXPECT_DOUBLE_EQ(factorOf(free, point), 20 / (4 * (40 / 2.0)));
+	EXPECT_TRUE(std::isfinite(factorOf(free, point)));
+	free.meanField->inverseMass(0, 0) = 1; // branches of 2 m: free approaches of 2.5 m/s each, and a moment of 40 N m s
+	EXPECT_DOUBLE_EQ(factorOf(free, point), 20 * 1.5 / (5 * (40 / 2.0)));
+	point.meanField->gradient(0, 0) = free.meanField->limit = 0.5; // it has no room left
+	EXPECT_GT(factorOf(free, point), 1e10);
+	point.meanField->gradient(0, 0) = -0.5; // on that side it has
+	EXPECT_LT(factorOf(free, point), 1);
 	free.meanField->inverseMass(0, 0) = 0;
 	free.meanField->inverseMass(1, 1) = 1; // across
 	EXPECT_GT(factorOf(free, point), 1e10);
+	for (Contact& c : point.contacts) c.gapVelocity = 0; // with a cell at rest nothing closes any more
+	free.meanField->gradient(0, 0) = 0;
+	EXPECT_EQ(factorOf(free, point), 0);
 }
 
 TEST(Squeeze, GroupsAreApart)
@@ -203,11 +213,16 @@ TEST(Squeeze, GroupsAreApart)
 		free.contacts.push_back(c);
 	}
 	point = at(free, {900, 500, 200, 50, 49, 50}, {0, 0, 0, -0.5, -0.5, -1});
-	EXPECT_DOUBLE_EQ(factorOf(free, point), (50 * 0.5 + 49 * 0.5 + 50 * 1) / 2); // approach 1, a newton second on either ball
-	// Moving bodies alone can always part, however they press on each other.
-	GrainProblem free2 = rowOfBalls(2, 0, 0, 0);
-	free2.contacts = {free2.contacts[1]};
-	EXPECT_EQ(factorOf(free2, at(free2, {50}, {-5})), 0);
+	EXPECT_DOUBLE_EQ(factorOf(free, point), (50 * 0.5 + 49 * 0.5 + 50 * 1) / (1.5 * 2)); // approaches 1 and 0.5, a newton second on either ball
+	// Moving bodies alone can part, however they press on each other, but not a ring of them.
+	GrainProblem pair = rowOfBalls(2, 0, 0, 0);
+	pair.contacts = {pair.contacts[1]};
+	EXPECT_EQ(factorOf(pair, at(pair, {50}, {-5})), 0);
+	pair.contacts.push_back(scenes::touch(2, 1, 1, 1, Vector3::UnitX(), 0)); // with its image
+	pair.contacts[1].imageVelocity[0] = -1;
+	EXPECT_GT(factorOf(pair, at(pair, {50, 50}, {0, -1})), 1e10);
+	pair.contacts[1].imageVelocity[0] = 1;
+	EXPECT_EQ(factorOf(pair, at(pair, {50, 50}, {0, -1})), 0);
 }
 
 // By virtual work the factor of any impulses at any point is at most the change of velocity that leads to an admissible one, over the approach.
@@ -319,4 +334,90 @@ TEST(Squeeze, NoFalseAlarmUnderAHeavyLoad)
 				for (const Measure measure : {Measure::naturalMap, Measure::siconos})
 					EXPECT_NE(statusOf(column(masses, false, 0, 1, load), tolerance, measure, false), SolveStatus::unbounded)
 							<< tolerance << ' ' << load << ' ' << masses;
+}
+
+namespace {
+
+SolveStatus statusOf(GrainProblem problem, double tolerance, Acceleration acceleration)
+{
+	SolverOptions options;
+	options.tolerance = tolerance;
+	options.maxIterations = 20000;
+	options.acceleration = acceleration;
+	return SignoriniCoulombSolver().solve(problem, options).status;
+}
+
+/// A ball between two walls at this angle to the y axis, which come with 1 m/s each: it escapes along y unless friction locks it, mu >= tan(angle).
+GrainProblem wedge(double angle, double friction)
+{
+	GrainProblem problem = rowOfBalls(1, 1, -1, 0);
+	problem.contacts[0].normal = {std::cos(angle), std::sin(angle), 0};
+	problem.contacts[1].normal = {std::cos(angle), -std::sin(angle), 0};
+	for (Contact& c : problem.contacts) {
+		c.arm1 = c.body1 == 1 ? c.normal : Vector3(Vector3::Zero());
+		c.arm2 = c.body2 == 1 ? Vector3(-c.normal) : Vector3(Vector3::Zero());
+		c.friction = friction;
+	}
+	return problem;
+}
+
+} // namespace
+
+TEST(Squeeze, WhatCanAndWhatCannotGiveWay)
+{
+	const GrainProblem row = rowOfBalls(1, 1, -1, 0);
+	GrainProblem tangential = row, normal = row, platens = row, follower = row, ring = rowOfBalls(3, 0, 0, 0);
+	for (Contact& c : tangential.contacts) c.tangentialCompliance = 1e-3;
+	for (Contact& c : normal.contacts) c.normalCompliance = 1e-3; // an impulse of 1000 N s stops them
+	for (const int platen : {0, 2}) platens.bodies[platen] = scenes::ball(1, 1, platens.bodies[platen].velocity);
+	for (const int platen : {0, 2}) platens.bodies[platen].inverseMass[0] = 0; // along the row only
+	follower.bodies[2].velocity = follower.bodies[0].velocity;
+	ring.contacts = {ring.contacts[1], ring.contacts[2], scenes::touch(3, 1, 1, 1, Vector3::UnitX(), 0.3)}; // the last with the image of the first
+	GrainProblem wide = ring, limited = ring;
+	for (GrainProblem* one : {&ring, &limited, &wide})
+		for (Contact& c : one->contacts) c.gapVelocity = -2;
+	for (GrainProblem* one : {&limited, &wide}) { // a cell 6 m wide has to stretch by 1 per second
+		one->meanField.emplace();
+		one->meanField->inverseMass(0, 0) = 1;
+		one->meanField->limit = one == &wide ? 2 : 0.5;
+	}
+	for (const double tolerance : {1e-2, 1e-3})
+		for (const Acceleration acceleration : {Acceleration::none, Acceleration::momentum}) {
+			const auto verdict = [&](const GrainProblem& problem) { return statusOf(problem, tolerance, acceleration); };
+			EXPECT_EQ(verdict(row), SolveStatus::unbounded);
+			EXPECT_EQ(verdict(tangential), SolveStatus::unbounded);
+			EXPECT_EQ(verdict(normal), SolveStatus::converged);
+			EXPECT_EQ(verdict(platens), SolveStatus::unbounded);
+			EXPECT_EQ(verdict(follower), SolveStatus::converged);
+			EXPECT_EQ(verdict(ring), SolveStatus::unbounded);
+			EXPECT_EQ(verdict(limited), SolveStatus::unbounded);
+			EXPECT_EQ(verdict(wide), SolveStatus::converged);
+			for (const double angle : {0.3, 0.1}) {
+				EXPECT_EQ(verdict(wedge(angle, 0)), SolveStatus::converged) << angle;
+				EXPECT_EQ(verdict(wedge(angle, 0.5 * std::tan(angle))), SolveStatus::converged) << angle;
+				EXPECT_EQ(verdict(wedge(angle, 2 * std::tan(angle))), SolveStatus::unbounded) << angle;
+			}
+		}
+}
+
+TEST(Squeeze, ImpulsesOfEarlierSteps)
+{
+	// Huge ones that are in balance meet the tolerance after a sweep, whose increments say nothing yet.
+	for (const double balls : {1, 3}) {
+		GrainProblem squeezed = rowOfBalls(int(balls), 1, -1, 0), follower = rowOfBalls(int(balls), 1, 1, 0);
+		for (GrainProblem* one : {&squeezed, &follower})
+			for (Contact& c : one->contacts) c.impulse = 1e6 * c.normal;
+		for (const Acceleration acceleration : {Acceleration::none, Acceleration::momentum}) {
+			EXPECT_EQ(statusOf(squeezed, 1e-2, acceleration), SolveStatus::unbounded) << balls;
+			EXPECT_NE(statusOf(follower, 1e-2, acceleration), SolveStatus::unbounded) << balls;
+		}
+	}
+	// Heaps that fall on a floor which rises, from loads that are far too large.
+	for (const unsigned seed : {1U, 2U, 3U})
+		for (const double tolerance : {1e-1, 1e-3}) {
+			GrainProblem heap = scenes::heap(3, seed, 0);
+			heap.bodies[0].velocity[2] = 0.3;
+			for (Contact& c : heap.contacts) c.impulse = 1000 * c.normal;
+			EXPECT_NE(statusOf(heap, tolerance, Acceleration::momentum), SolveStatus::unbounded) << seed << ' ' << tolerance;
+		}
 }
