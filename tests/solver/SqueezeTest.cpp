@@ -170,6 +170,9 @@ TEST(Squeeze, BlockedDirectionsAndTorquesCount)
 	EXPECT_DOUBLE_EQ(factorOf(free, point), 20.0 / 3);
 	point.rolling = {{0, 1, 1, Vector3::Zero(), {0, 0, 2}}}; // arm2 x r is -3 about z
 	EXPECT_DOUBLE_EQ(factorOf(free, point), 20.0 / 1);
+	point.rolling.push_back({1, 1, 1, Vector3::Zero(), {0, 0, -1}}); // on the wall; the ball, body 1, gets the opposite
+	EXPECT_GT(factorOf(free, point), 1e10);
+	point.rolling.pop_back();
 	free.bodies[1].inverseInertia.setZero();
 	EXPECT_GT(factorOf(free, point), 1e10); // in balance but for round-off
 }
