@@ -17,7 +17,8 @@ namespace contactdynamics {
 /// hundredth of the largest anywhere. Left out are contacts whose normal compliance gives way, and groups that close nowhere when they stand still.
 class GrainSqueeze {
 public:
-	/// In a chain that is squeezed what is added comes into balance without end. Wedges below this escape at less than a hundred times A.
+	/// Where something is squeezed, the factor grows to round-off with the sweeps. A ball in a flat wedge that closes may escape as many times as
+	/// fast.
 	static constexpr double certain = 100;
 
 	/// Whether no contact closes when every body, and the mean field, stands still along all directions in which it can move: then nothing is
