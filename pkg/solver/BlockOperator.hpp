@@ -105,13 +105,13 @@ public:
 			for (std::size_t i = 0; i < lanes.size(); ++i) report.ambiguousContacts += !OneContact2D(diagonalBlock(i)).isUnique(problem.friction[i]);
 	}
 
-	/// The factor of Squeeze.hpp, of the present impulses or of what they have that others lack.
-	double squeeze(const std::vector<Vector>* others = nullptr)
+	/// Of the present impulses, or of what they have that others lack.
+	BlockSqueeze squeeze(const std::vector<Vector>* others = nullptr)
 	{
 		std::vector<Vector> r, u;
 		impulses(r);
 		velocities(u);
-		return squeezeFactor<D>(problem, r, u, others);
+		return squeezeOf<D>(problem, r, u, others);
 	}
 
 	void impulses(std::vector<Vector>& r) const

@@ -136,14 +136,14 @@ private:
 	bool runsAway()
 	{
 		if (report.maxApproachSpeed == 0) return false;
-		if (blocks.squeeze() < Squeeze::suspected) return false;
+		if (blocks.squeeze().factor < Squeeze::suspected) return false;
 		std::vector<Vector> here;
 		blocks.impulses(here);
 		SolverOptions further = options;
 		further.maxIterations = Squeeze::furtherSweeps(report.iterations);
 		further.tolerance = std::numeric_limits<double>::min();
 		signoriniCoulombLoop(blocks, further);
-		return blocks.squeeze(&here) >= certainSqueeze;
+		return blocks.squeeze(&here).isCertain();
 	}
 
 	double last = 0; // residual after the last sweep

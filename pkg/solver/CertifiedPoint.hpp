@@ -15,7 +15,7 @@ template <int D> struct CertifiedPoint {
 template <int D> void certify(BlockOperator<D>& blocks, CertifiedPoint<D>& best)
 {
 	const double residual = blocks.certificate();
-	if (!(residual < best.residual) || blocks.squeeze() >= certainSqueeze) return;
+	if (!(residual < best.residual) || blocks.squeeze().isLost) return;
 	best.residual = residual;
 	blocks.impulses(best.impulses);
 }

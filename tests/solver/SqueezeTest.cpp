@@ -289,9 +289,9 @@ TEST(Squeeze, FactorOfBlocks)
 	const BlockProblem problem = column(2, true, 2);
 	using Vectors = std::vector<Eigen::Vector2d>;
 	const Vectors r{{12, 0}, {11, 0}, {10, 0}}, u{{-0.5, 0}, {-0.5, 0}, {-1, 0}}, others{{2, 0}, {3, 0}, {4, 0}};
-	EXPECT_DOUBLE_EQ(squeezeFactor<2>(problem, r, u), (12 * 0.5 + 11 * 0.5 + 10) / 2.0);
-	EXPECT_DOUBLE_EQ(squeezeFactor<2>(problem, r, u, &others), (10 * 0.5 + 8 * 0.5 + 6) / 8.0); // by 2 and 2
-	EXPECT_EQ(squeezeFactor<2>(problem, r, {{-0.002, 0}, {0, 0}, {0, 0}}), 0);					// too slow, against 1 m/s
+	EXPECT_DOUBLE_EQ(squeezeOf<2>(problem, r, u).factor, (12 * 0.5 + 11 * 0.5 + 10) / 2.0);
+	EXPECT_DOUBLE_EQ(squeezeOf<2>(problem, r, u, &others).factor, (10 * 0.5 + 8 * 0.5 + 6) / 8.0); // by 2 and 2
+	EXPECT_EQ(squeezeOf<2>(problem, r, {{-0.002, 0}, {0, 0}, {0, 0}}).factor, 0);				   // too slow, against 1 m/s
 }
 
 // Chains of which each contact keeps a part of the approach, and lids slower than a fall in a step: not noticed before.
@@ -423,4 +423,36 @@ TEST(Squeeze, ImpulsesOfEarlierSteps)
 			for (Contact& c : heap.contacts) c.impulse = 1000 * c.normal;
 			EXPECT_NE(statusOf(heap, tolerance, Acceleration::momentum), SolveStatus::unbounded) << seed << ' ' << tolerance;
 		}
+}
+
+// Newton's method and the central path go to infinity at once where one of several bodies is held in a vice that closes, and leave any velocities.
+TEST(Squeeze, VicesAreNeverSolved)
+{
+	for (unsigned seed = 0; seed < 40; ++seed) {
+		std::mt19937_64 random(seed);
+		std::normal_distribution<double> normal;
+		std::uniform_real_distribution<double> uniform;
+		const int bodies = 3 + int(seed % 6);
+		scenes::DenseMatrix H = scenes::DenseMatrix::Zero(3 * bodies, 6 * bodies);
+		scenes::DenseMatrix inverseMass = scenes::DenseMatrix::Identity(3 * bodies, 3 * bodies);
+		for (int body = 0; body < bodies; ++body) { // two walls each, or a wall and one of the bodies before
+			inverseMass.block<3, 3>(3 * body, 3 * body) *= std::pow(10, 2 * uniform(random) - 1);
+			const Vector3 n = Vector3(normal(random), normal(random), normal(random)).normalized(), t = n.unitOrthogonal(), s = n.cross(t);
+			for (int side = 0; side < 2; ++side) {
+				Matrix3 frame;
+				frame << (side ? -n : n), t, s;
+				const int column = 3 * (2 * body + side);
+				H.block<3, 3>(3 * body, column) = frame;
+				if (body > 0 && side == 0 && uniform(random) < 0.5) H.block<3, 3>(3 * int(body * uniform(random)), column) -= frame;
+			}
+		}
+		Eigen::VectorXd v(3 * bodies);
+		for (double& each : v) each = normal(random);
+		BlockProblem problem = scenes::blockProblem(3, H, inverseMass, v, 0.1 + 0.5 * uniform(random));
+		problem.q[0] -= 2; // both walls of the first body come
+		problem.q[3] -= 2;
+		for (const double tolerance : {1e-4, 1e-8})
+			for (const Measure measure : {Measure::naturalMap, Measure::siconos})
+				EXPECT_NE(statusOf(problem, tolerance, measure, true, 1000), SolveStatus::converged) << seed << ' ' << tolerance;
+	}
 }
