@@ -13,10 +13,8 @@ std::vector<std::vector<std::int32_t>> contactsByBody(const GrainProblem& proble
 {
 	std::vector<std::vector<std::int32_t>> at(problem.bodies.size());
 	for (std::size_t i = 0; i < problem.contacts.size(); ++i)
-		for (const std::int32_t body : {problem.contacts[i].body1, problem.contacts[i].body2}) {
-			const Body& own = problem.bodies[body];
-			if (!own.inverseMass.isZero(0) || !own.inverseInertia.isZero(0)) at[body].push_back(std::int32_t(i));
-		}
+		for (const std::int32_t body : {problem.contacts[i].body1, problem.contacts[i].body2})
+			if (problem.bodies[body].moves()) at[body].push_back(std::int32_t(i));
 	return at;
 }
 

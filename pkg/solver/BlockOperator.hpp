@@ -105,13 +105,27 @@ public:
 			for (std::size_t i = 0; i < lanes.size(); ++i) report.ambiguousContacts += !OneContact2D(diagonalBlock(i)).isUnique(problem.friction[i]);
 	}
 
-	/// Of the present impulses, or of what they have that others lack.
-	BlockSqueeze squeeze(const std::vector<Vector>* others = nullptr)
+	/// The factor of BlockSqueeze.hpp, of the present impulses or of what they have that others lack.
+	double squeeze(const std::vector<Vector>* others = nullptr)
 	{
 		std::vector<Vector> r, u;
 		impulses(r);
 		velocities(u);
-		return squeezeOf<D>(problem, r, u, others);
+		return squeezeFactor<D>(problem, r, u, others);
+	}
+
+	/// Whether a contact closes with a tenth of the largest approach without impulses though its own is a thousand times what stops that alone. Where
+	/// there is no solution Newton's method goes to infinity and leaves velocities of any size, on which squeeze() says nothing.
+	bool isLost()
+	{
+		prepare();
+		double largest = 0;
+		for (std::size_t i = 0; i < lanes.size(); ++i) largest = std::max(largest, -problem.q[D * i]);
+		for (std::size_t i = 0; i < lanes.size(); ++i) {
+			if (!(lanes[i].lane[0] > 0 && visited[i].W(0, 0) * lanes[i].lane[0] >= 1000 * largest)) continue;
+			if (const double approach = -velocityAt(i)[0]; approach > 0 && approach >= 0.1 * largest) return true;
+		}
+		return false;
 	}
 
 	void impulses(std::vector<Vector>& r) const

@@ -7,7 +7,6 @@
 #include "NewtonFinish.hpp"
 #include "SignoriniCoulombLoop.hpp"
 
-#include <limits>
 #include <optional>
 
 namespace contactdynamics {
@@ -136,14 +135,11 @@ private:
 	bool runsAway()
 	{
 		if (report.maxApproachSpeed == 0) return false;
-		if (blocks.squeeze().factor < Squeeze::suspected) return false;
+		if (blocks.squeeze() < Squeeze::suspected) return false;
 		std::vector<Vector> here;
 		blocks.impulses(here);
-		SolverOptions further = options;
-		further.maxIterations = Squeeze::furtherSweeps(report.iterations);
-		further.tolerance = std::numeric_limits<double>::min();
-		signoriniCoulombLoop(blocks, further);
-		return blocks.squeeze(&here).isCertain();
+		signoriniCoulombLoop(blocks, Squeeze::further(options, report.iterations));
+		return blocks.squeeze(&here) >= certainSqueezeOfBlocks;
 	}
 
 	double last = 0; // residual after the last sweep

@@ -8,25 +8,17 @@
 
 namespace contactdynamics {
 
-/// The factor of Squeeze.hpp where W is explicit and the bodies are unknown, and what tells a point that is none to go on from.
-struct BlockSqueeze {
-	/// - sum r_N u_N over r.W r. What is missing to a solution is at least so many times r in the norm of energy, as
-	/// - sum r_N u_N <= r.W (r* - r) <= |r| |r* - r|. A mass that is a million times that between it and a wall which moves can deceive it. Rejected:
-	/// the approach times the root of the masses 1 / W_NN instead of |r|. W_NN of a light grain under a heavy one does not know the heavy one, and a
-	/// column of 30 under a mass of a thousand took it in.
-	double factor = 0;
-	/// A contact closes with a tenth of the largest approach though its impulse is a thousand times what stops that alone. Where Newton's method goes
-	/// to infinity it leaves velocities of any size, on which the factor says nothing: of 400 vices 97 were called solved.
-	bool isLost = false;
+/// The factor of what further sweeps add from which on there is no solution.
+inline constexpr double certainSqueezeOfBlocks = 1000;
 
-	/// Of what further sweeps add: there is no solution.
-	bool isCertain() const { return factor >= 1000; }
-};
-
+/// The factor of Squeeze.hpp where W is explicit and the bodies are unknown: - sum r_N u_N over r.W r. What is missing to a solution is at least so
+/// many times r in the norm of energy, as - sum r_N u_N <= r.W (r* - r) <= |r| |r* - r|. A mass that is a million times that between it and a wall
+/// which moves can deceive it. Rejected: the approach times the root of the masses 1 / W_NN instead of |r|. W_NN of a light grain under a heavy one
+/// does not know the heavy one, and a column of 30 under a mass of a thousand took it in.
 /// @param r, u  impulses and velocities at a point [N s], [m/s];  @param others  impulses to be taken away, or none
-template <int D> BlockSqueeze squeezeOf(const BlockProblem& problem, const std::vector<Eigen::Matrix<double, D, 1>>& r,
-										const std::vector<Eigen::Matrix<double, D, 1>>& u,
-										const std::vector<Eigen::Matrix<double, D, 1>>* others = nullptr)
+template <int D> double squeezeFactor(const BlockProblem& problem, const std::vector<Eigen::Matrix<double, D, 1>>& r,
+									  const std::vector<Eigen::Matrix<double, D, 1>>& u,
+									  const std::vector<Eigen::Matrix<double, D, 1>>* others = nullptr)
 {
 	using Vector = Eigen::Matrix<double, D, 1>;
 	struct Held { // a group of contacts so far
@@ -46,7 +38,7 @@ template <int D> BlockSqueeze squeezeOf(const BlockProblem& problem, const std::
 		largest = std::max(largest, -problem.q[D * i]);
 		if (r[i][0] > 0) remains = std::max(remains, -u[i][0]);
 	}
-	if (!(remains > Squeeze::leastApproach * largest)) return {};
+	if (!(remains > Squeeze::leastApproach * largest)) return 0;
 	std::vector<std::int32_t> loaded;
 	for (std::size_t i = 0; i < count; ++i)
 		if (added(i)[0] > 0) loaded.push_back(std::int32_t(i));
@@ -57,7 +49,7 @@ template <int D> BlockSqueeze squeezeOf(const BlockProblem& problem, const std::
 	JoinedGroups<Held> groups;
 	groups.reset(count);
 	std::vector<std::uint8_t> isIn(count, 0);
-	BlockSqueeze squeeze;
+	double factor = 0;
 	for (const std::int32_t i : loaded) {
 		isIn[i] = 1;
 		const Vector its = added(i);
@@ -68,14 +60,12 @@ template <int D> BlockSqueeze squeezeOf(const BlockProblem& problem, const std::
 			groups.join(i, j);
 			energy += (i == j ? 1 : 2) * its.dot(blockOf<D>(problem, k) * added(j));
 		}
-		const Eigen::Matrix<double, D, D> W = diagonalBlockOf<D>(problem, i);
 		Held& held = groups.of(i);
-		held.add({-its[0] * u[i][0], energy, its.dot(W * its)});
+		held.add({-its[0] * u[i][0], energy, its.dot(diagonalBlockOf<D>(problem, i) * its)});
 		const double roundOff = 1e-14 * held.total;
-		squeeze.factor = std::max(squeeze.factor, held.work / std::max(roundOff, held.energy));
-		squeeze.isLost = squeeze.isLost || (-u[i][0] >= 0.1 * largest && W(0, 0) * its[0] >= 1000 * largest);
+		factor = std::max(factor, held.work / std::max(roundOff, held.energy));
 	}
-	return squeeze;
+	return factor;
 }
 
 } // namespace contactdynamics

@@ -11,11 +11,11 @@ template <int D> struct CertifiedPoint {
 	std::vector<Eigen::Matrix<double, D, 1>> impulses;
 };
 
-/// Keeps the operator's impulses as the best point where its certificate says so; not where they press on what does not give way (Squeeze.hpp).
+/// Keeps the operator's impulses as the best point where its certificate says so; not where it is lost.
 template <int D> void certify(BlockOperator<D>& blocks, CertifiedPoint<D>& best)
 {
 	const double residual = blocks.certificate();
-	if (!(residual < best.residual) || blocks.squeeze().isLost) return;
+	if (!(residual < best.residual) || blocks.isLost()) return;
 	best.residual = residual;
 	blocks.impulses(best.impulses);
 }

@@ -47,19 +47,11 @@ void GrainOperator::collectImpulses(std::vector<Vector3>& r)
 void GrainOperator::lastIncrements(ImpulseSet& added) const
 {
 	added.impulses.assign(problem->contacts.size(), Vector3::Zero());
-	added.torques.assign(rollingContacts.size(), Vector3::Zero());
-	const auto collect = [&](const auto& from, const PackList<RollingPack>& torques) {
-		for (std::size_t i = 0; i < from.size(); ++i)
-			for (int lane = 0; lane < packLanes; ++lane) {
-				const std::int32_t id = from[i].id[lane];
-				if (id < 0) continue;
-				added.impulses[id] = inGlobalAxes(from[i], from[i].increment, lane);
-				if (rollingOf.empty() || rollingOf[id] < 0) continue;
-				for (int k = 0; k < 3; ++k) added.torques[rollingOf[id]][k] = torques[i].increment[k][lane];
-			}
-	};
-	collect(packs, rollingPacks);
-	collect(generals, rollingGenerals);
+	const auto collect = [&](const auto& pack, int lane) { added.impulses[pack.id[lane]] = inGlobalAxes(pack, pack.increment, lane); };
+	eachContact(packs, collect);
+	eachContact(generals, collect);
+	added.torques.clear();
+	for (const RollingContact& one : rollingContacts) added.torques.push_back(one.increment);
 }
 
 void GrainOperator::addImpulse(const Contact& c, const Vector3& impulse)

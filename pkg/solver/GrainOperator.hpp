@@ -44,7 +44,7 @@ public:
 
 	/// Approach at the point of the last certificate() over the largest without any impulse.
 	double approachLeft() const { return maxApproachSpeed > 0 ? maxApproachSpeed / largestFreeApproach : 0; }
-	/// What the last visit of each contact has added.
+	/// After finish(): what the last visit of each contact has added.
 	void lastIncrements(ImpulseSet& added) const;
 
 	/// Writes velocities, impulses and status of the last certificate() into the problem, and the counts into the report.

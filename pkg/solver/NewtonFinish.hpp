@@ -9,7 +9,7 @@ namespace contactdynamics {
 /// A few Newton steps from a point of the sweeps, each followed by two plain sweeps, the damping falling whatever happens. The residual may rise on
 /// the way; the sweeps repair what a wrong guess of the active set has done. Finds the active set of stacks in a few steps, or not at all.
 ///
-/// Only points with a lower certificate than the best so far are kept, and only where nothing is squeezed (Squeeze.hpp): damped steps go to
+/// Only points with a lower certificate than the best so far are kept, and only those that are not lost (BlockOperator::isLost): damped steps go to
 /// infinity at once where there is no solution.
 template <int D> class NewtonFinish {
 public:

@@ -6,7 +6,6 @@
 #include "GuardedLoop.hpp"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -127,11 +126,8 @@ bool SignoriniCoulombSolver::Workspace::runsAway(const GrainOperator& winner, co
 		if (factor() < Squeeze::suspected) return false;
 	}
 	GrainProblem further = squeeze.from(solved);
-	SolverOptions endless = options;
-	endless.tolerance = std::numeric_limits<double>::min();
-	endless.maxIterations = Squeeze::furtherSweeps(done);
 	rival.start(further, options.acceleration != Acceleration::none, *crew);
-	signoriniCoulombLoop(rival, endless);
+	signoriniCoulombLoop(rival, Squeeze::further(options, done));
 	SolveReport report;
 	rival.finish(report);
 	added.take(further);

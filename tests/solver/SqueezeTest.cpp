@@ -289,9 +289,9 @@ TEST(Squeeze, FactorOfBlocks)
 	const BlockProblem problem = column(2, true, 2);
 	using Vectors = std::vector<Eigen::Vector2d>;
 	const Vectors r{{12, 0}, {11, 0}, {10, 0}}, u{{-0.5, 0}, {-0.5, 0}, {-1, 0}}, others{{2, 0}, {3, 0}, {4, 0}};
-	EXPECT_DOUBLE_EQ(squeezeOf<2>(problem, r, u).factor, (12 * 0.5 + 11 * 0.5 + 10) / 2.0);
-	EXPECT_DOUBLE_EQ(squeezeOf<2>(problem, r, u, &others).factor, (10 * 0.5 + 8 * 0.5 + 6) / 8.0); // by 2 and 2
-	EXPECT_EQ(squeezeOf<2>(problem, r, {{-0.002, 0}, {0, 0}, {0, 0}}).factor, 0);				   // too slow, against 1 m/s
+	EXPECT_DOUBLE_EQ(squeezeFactor<2>(problem, r, u), (12 * 0.5 + 11 * 0.5 + 10) / 2.0);
+	EXPECT_DOUBLE_EQ(squeezeFactor<2>(problem, r, u, &others), (10 * 0.5 + 8 * 0.5 + 6) / 8.0); // by 2 and 2
+	EXPECT_EQ(squeezeFactor<2>(problem, r, {{-0.002, 0}, {0, 0}, {0, 0}}), 0);					// too slow, against 1 m/s
 }
 
 // Chains of which each contact keeps a part of the approach, and lids slower than a fall in a step: not noticed before.
