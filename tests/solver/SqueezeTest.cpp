@@ -2,7 +2,7 @@
 // What cannot be solved is told from what is only hard: chains between driven walls, heaps around them, high columns, heavy loads, loose tolerances.
 #include "BlockScenes.hpp"
 #include "Scenes.hpp"
-#include "pkg/solver/BlockSqueeze.hpp"
+#include "pkg/solver/BlockOperator.hpp"
 #include "pkg/solver/GrainSqueeze.hpp"
 #include "pkg/solver/SignoriniCoulombSolver.hpp"
 
@@ -292,6 +292,22 @@ TEST(Squeeze, FactorOfBlocks)
 	EXPECT_DOUBLE_EQ(squeezeFactor<2>(problem, r, u), (12 * 0.5 + 11 * 0.5 + 10) / 2.0);
 	EXPECT_DOUBLE_EQ(squeezeFactor<2>(problem, r, u, &others), (10 * 0.5 + 8 * 0.5 + 6) / 8.0); // by 2 and 2
 	EXPECT_EQ(squeezeFactor<2>(problem, r, {{-0.002, 0}, {0, 0}, {0, 0}}), 0);					// too slow, against 1 m/s
+}
+
+TEST(Squeeze, PointsOfBlocksThatAreLost)
+{
+	// One mass of 1 kg between floor and lid, each with a free approach of 1 m/s: u = r_floor - r_lid - 1 and r_lid - r_floor - 1.
+	const auto isLost = [](double floor, double lid) {
+		BlockProblem problem = column(1, true, 2);
+		problem.impulse = {floor, 0, lid, 0};
+		return BlockOperator<2>(problem, Measure::naturalMap).isLost();
+	};
+	EXPECT_TRUE(isLost(1001, 1001));
+	EXPECT_FALSE(isLost(999, 999));
+	EXPECT_TRUE(isLost(1000.5, 1000.5 - 0.89)); // the floor keeps 0.11 m/s, and the lid is below a thousand
+	EXPECT_FALSE(isLost(1000.5, 1000.5 - 0.91));
+	EXPECT_TRUE(isLost(1e12, 1e12 + 1e6)); // velocities of any size
+	EXPECT_FALSE(isLost(0, 0));
 }
 
 // Chains of which each contact keeps a part of the approach, and lids slower than a fall in a step: not noticed before.
