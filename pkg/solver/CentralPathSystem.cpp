@@ -4,7 +4,6 @@
 #include "ProblemBlocks.hpp"
 #include "SmoothedContact.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace contactdynamics {
@@ -16,7 +15,7 @@ constexpr double leastFriction = 1e-100; // its inverse squared must be a number
 template <int D> CentralPathSystem<D>::CentralPathSystem(const BlockProblem& problem) : rowStart(problem.rowStart), column(problem.column)
 {
 	describe(problem);
-	layOut();
+	system.layOut(rowStart, column);
 	for (Eigen::VectorXd* vector : {&r, &F, &terms, &rateOfR, &rateOfLog}) vector->resize(unknowns());
 	slope.resize(scale.size());
 }
@@ -41,43 +40,6 @@ template <int D> void CentralPathSystem<D>::describe(const BlockProblem& problem
 	for (std::size_t i = 0; i < count; ++i) q.segment<D>(D * i) = scale[i].cwiseProduct(Eigen::Map<const Vector>(&problem.q[D * i]));
 	size = q.stableNorm() / std::sqrt(double(count));
 	if (size > 0) q /= size;
-}
-
-template <int D> void CentralPathSystem<D>::layOut()
-{
-	const int count = int(scale.size());
-	std::vector<Eigen::Triplet<double>> entries;
-	const auto addPattern = [&](int i, int j) {
-		for (int a = 0; a < D; ++a)
-			for (int b = 0; b < D; ++b) entries.emplace_back(D * i + a, D * j + b, 0);
-	};
-	for (int i = 0; i < count; ++i) {
-		addPattern(i, i);
-		for (int k = rowStart[i]; k < rowStart[i + 1]; ++k) addPattern(i, column[k]);
-	}
-	system.matrix.resize(unknowns(), unknowns());
-	system.matrix.setFromTriplets(entries.begin(), entries.end());
-	system.matrix.makeCompressed();
-	for (int i = 0; i < count; ++i) {
-		diagonalPlace.push_back(find(D * i, D * i));
-		for (int k = rowStart[i]; k < rowStart[i + 1]; ++k) place.push_back(find(D * i, D * column[k]));
-	}
-	system.analyse();
-}
-
-template <int D> int CentralPathSystem<D>::find(int row, int col) const
-{
-	const int* first = system.matrix.innerIndexPtr() + system.matrix.outerIndexPtr()[col];
-	const int* last = system.matrix.innerIndexPtr() + system.matrix.outerIndexPtr()[col + 1];
-	return int(std::lower_bound(first, last, row) - first);
-}
-
-template <int D> void CentralPathSystem<D>::addBlock(int where, std::int32_t contact, const Block& block)
-{
-	for (int b = 0; b < D; ++b) {
-		double* values = system.matrix.valuePtr() + system.matrix.outerIndexPtr()[D * contact + b] + where;
-		for (int a = 0; a < D; ++a) values[a] += block(a, b);
-	}
 }
 
 template <int D> typename CentralPathSystem<D>::Contact CentralPathSystem<D>::contact(std::size_t i, const Eigen::VectorXd& z, double t) const
@@ -119,7 +81,7 @@ template <int D> void CentralPathSystem<D>::evaluate(const Eigen::VectorXd& z, d
 {
 	const int count = int(scale.size());
 	const double t = std::exp(logT);
-	std::fill(system.matrix.valuePtr(), system.matrix.valuePtr() + system.matrix.nonZeros(), 0.0);
+	system.setZero();
 	for (int i = 0; i < count; ++i) {
 		const Contact here = contact(i, z, t);
 		const auto qi = q.segment<D>(D * i);
@@ -129,7 +91,7 @@ template <int D> void CentralPathSystem<D>::evaluate(const Eigen::VectorXd& z, d
 		F.segment<D>(D * i) = here.u - qi;
 		terms.segment<D>(D * i) = here.u.cwiseAbs() + qi.cwiseAbs();
 		rateOfLog.segment<D>(D * i) = here.rateOfU;
-		addBlock(diagonalPlace[i], i, here.slopeOfU);
+		system.addToDiagonal(i, here.slopeOfU);
 	}
 	for (int i = 0; i < count; ++i)
 		for (int k = rowStart[i]; k < rowStart[i + 1]; ++k) {
@@ -138,7 +100,7 @@ template <int D> void CentralPathSystem<D>::evaluate(const Eigen::VectorXd& z, d
 			F.segment<D>(D * i) -= given;
 			terms.segment<D>(D * i) += given.cwiseAbs();
 			rateOfLog.segment<D>(D * i) -= W[k] * rateOfR.segment<D>(D * j);
-			addBlock(place[k], j, -W[k] * slope[j]);
+			system.add(k, -W[k] * slope[j]);
 		}
 	F -= t * f;
 	rateOfLog = t * (rateOfLog - f);

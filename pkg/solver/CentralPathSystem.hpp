@@ -2,7 +2,7 @@
 #pragma once
 
 #include "BlockProblem.hpp"
-#include "SquareSystem.hpp"
+#include "BlockSystem.hpp"
 
 namespace contactdynamics {
 
@@ -36,8 +36,8 @@ public:
 	bool atRoundOff() const { return excess <= 0; }
 
 	/// dF/dz of the last evaluate(), to be factorised.
-	SquareSystem& jacobian() { return system; }
-	const SquareSystem& jacobian() const { return system; }
+	BlockSystem<D>& jacobian() { return system; }
+	const BlockSystem<D>& jacobian() const { return system; }
 
 	/// r(z, t) in the units of the problem [N s]: inside the cones.
 	void impulses(const Eigen::VectorXd& z, double logT, std::vector<Vector>& r) const;
@@ -52,11 +52,9 @@ private:
 	std::vector<Block> W;	   // of each block of the problem, scaled
 	std::vector<std::int32_t> rowStart, column;
 	Eigen::VectorXd q, f, r, F, terms, rateOfR, rateOfLog;
-	std::vector<Block> slope;		// dr/dz of each contact
-	std::vector<int> place;			// of each block, in the values of the first of its D columns
-	std::vector<int> diagonalPlace; // of each contact's own block
+	std::vector<Block> slope; // dr/dz of each contact
 
-	SquareSystem system;
+	BlockSystem<D> system;
 
 	/// A contact at z, by its law.
 	struct Contact {
@@ -66,9 +64,6 @@ private:
 	Contact contact(std::size_t i, const Eigen::VectorXd& z, double t) const;
 
 	void describe(const BlockProblem& problem);
-	void layOut();
-	void addBlock(int where, std::int32_t contact, const Block& block);
-	int find(int row, int col) const;
 };
 
 } // namespace contactdynamics

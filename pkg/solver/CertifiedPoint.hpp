@@ -11,13 +11,14 @@ template <int D> struct CertifiedPoint {
 	std::vector<Eigen::Matrix<double, D, 1>> impulses;
 };
 
-/// Keeps the operator's impulses as the best point where its certificate says so; not where it is lost.
-template <int D> void certify(BlockOperator<D>& blocks, CertifiedPoint<D>& best)
+/// Keeps the operator's impulses as the best point where its certificate says so; not where it is lost. @return  the certificate
+template <int D> double certify(BlockOperator<D>& blocks, CertifiedPoint<D>& best)
 {
 	const double residual = blocks.certificate();
-	if (!(residual < best.residual) || blocks.isLost()) return;
+	if (!(residual < best.residual) || blocks.isLost()) return residual;
 	best.residual = residual;
 	blocks.impulses(best.impulses);
+	return residual;
 }
 
 } // namespace contactdynamics

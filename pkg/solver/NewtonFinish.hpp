@@ -6,8 +6,9 @@
 
 namespace contactdynamics {
 
-/// A few Newton steps from a point of the sweeps, each followed by two plain sweeps, the damping falling whatever happens. The residual may rise on
-/// the way; the sweeps repair what a wrong guess of the active set has done. Finds the active set of stacks in a few steps, or not at all.
+/// A few Newton steps from a point of the sweeps, the damping falling whatever happens. The residual may rise on the way. Each starts where the one
+/// before has ended, outside the cones: brought back into them, or swept, the impulses lose what the next step builds on (capsules, boxes at 1e11 Pa:
+/// a cycle instead of 3 to 12 steps). The certificate is that of the impulses inside. Finds the active set in a few steps, or not at all.
 ///
 /// Only points with a lower certificate than the best so far are kept, and only those that are not lost (BlockOperator::isLost): damped steps go to
 /// infinity at once where there is no solution.
@@ -20,8 +21,9 @@ public:
 	double stepCost() const { return cost; } ///< operations of a Newton step with all contacts active, an upper estimate
 
 	/// @param best   in: where to start; out: the best point seen
+	/// @param most   Newton steps; never more than fifteen
 	/// @return       Newton steps done
-	int improve(CertifiedPoint<D>& best, double tolerance);
+	int improve(CertifiedPoint<D>& best, double tolerance, int most);
 
 private:
 	BlockOperator<D>& blocks;

@@ -5,6 +5,10 @@
 
 namespace contactdynamics {
 
+namespace {
+constexpr double assembly = 50; // sweeps: building, ordering, and what of the elimination goes with the size of the matrix; measured
+} // namespace
+
 template <int D> NewtonStep<D>::NewtonStep(const BlockProblem& given) : problem(given)
 {
 	for (std::size_t i = 0; i < problem.contacts(); ++i) {
@@ -24,8 +28,10 @@ template <int D> bool NewtonStep<D>::compute(const std::vector<Vector>& r, const
 	for (std::size_t i = 0; i < count; ++i)
 		if (normalScale[i] > 0 && r[i][0] - normalScale[i] * u[i][0] > 0) position[i] = active++;
 
+	if (position != positionBefore) layOut(active);
+	system.setZero();
 	right.resize(D * active);
-	std::vector<Eigen::Triplet<double>> entries;
+	std::size_t kept = 0; // blocks
 	for (std::size_t i = 0; i < count; ++i) {
 		if (position[i] < 0) continue;
 		// The row of contact i reads  B dr_i + A du_i = -value.
@@ -61,15 +67,16 @@ template <int D> bool NewtonStep<D>::compute(const std::vector<Vector>& r, const
 				value -= scaled * r[j]; // it opens: its impulse goes
 				continue;
 			}
-			for (int row = 0; row < D; ++row)
-				for (int col = 0; col < D; ++col) entries.emplace_back(D * position[i] + row, D * position[j] + col, scaled(row, col));
+			system.add(kept++, scaled);
 		}
-		for (int row = 0; row < D; ++row)
-			for (int col = 0; col < D; ++col) entries.emplace_back(D * position[i] + row, D * position[i] + col, B(row, col));
+		system.addToDiagonal(std::size_t(position[i]), B);
 		right.template segment<D>(D * position[i]) = -value;
 	}
-	if (active > 0 && !factorAndSolve(D * active, position == positionBefore, entries)) return false;
-	if (active > 0 && !solution.allFinite()) return false;
+	if (active > 0) {
+		if (!system.factorise()) return false;
+		solution = system.solve(right);
+		if (!solution.allFinite()) return false;
+	}
 	next.resize(count);
 	for (std::size_t i = 0; i < count; ++i)
 		next[i] = position[i] < 0 ? Vector(Vector::Zero()) : Vector(r[i] + solution.template segment<D>(D * position[i]));
@@ -80,23 +87,14 @@ template <int D> double NewtonStep<D>::cost() const
 {
 	// Column counts of the Cholesky factor of the block pattern, by a walk up the elimination tree from every entry of a row.
 	const int count = int(problem.contacts());
-	std::vector<Eigen::Triplet<double>> entries;
-	for (int i = 0; i < count; ++i)
-		for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k) {
-			entries.emplace_back(i, problem.column[k], 1);
-			entries.emplace_back(problem.column[k], i, 1);
-		}
-	Eigen::SparseMatrix<double> pattern(count, count);
-	pattern.setFromTriplets(entries.begin(), entries.end());
-	Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-	Eigen::AMDOrdering<int>()(pattern, order);
-	Eigen::SparseMatrix<double> ordered;
-	ordered = pattern.twistedBy(order.inverse());
+	const auto order = minimumDegree(problem.rowStart, problem.column);
+	const Eigen::PermutationMatrix<Eigen::Dynamic> place = order.inverse();
 	std::vector<int> parent(count, -1), seen(count, -1), below(count, 0);
 	for (int row = 0; row < count; ++row) {
 		seen[row] = row;
-		for (Eigen::SparseMatrix<double>::InnerIterator entry(ordered, row); entry; ++entry)
-			for (int column = int(entry.row()); column < row && seen[column] != row; column = parent[column]) {
+		const int i = order.indices()[row];
+		for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k)
+			for (int column = place.indices()[problem.column[k]]; column < row && seen[column] != row; column = parent[column]) {
 				if (parent[column] < 0) parent[column] = row;
 				++below[column];
 				seen[column] = row;
@@ -104,21 +102,20 @@ template <int D> double NewtonStep<D>::cost() const
 	}
 	double pairs = 0;
 	for (const int blocks : below) pairs += (blocks + 1.0) * (blocks + 1.0);
-	constexpr double overhead = 10; // measured: assembly, ordering and indirect addressing, against the straight products of a sweep
-	return overhead * 2 * D * D * D * pairs;
+	return 2 * D * D * (assembly * double(problem.column.size()) + D * pairs);
 }
 
-template <int D> bool NewtonStep<D>::factorAndSolve(int size, bool samePattern, const std::vector<Eigen::Triplet<double>>& entries)
+template <int D> void NewtonStep<D>::layOut(int active)
 {
-	system.matrix.resize(size, size);
-	system.matrix.setFromTriplets(entries.begin(), entries.end());
-	if (!samePattern) system.analyse();
-	if (!system.factorise()) {
-		position.clear(); // no pattern to keep
-		return false;
+	std::vector<std::int32_t> rowStart{0}, column;
+	rowStart.reserve(active + 1);
+	for (std::size_t i = 0; i < problem.contacts(); ++i) {
+		if (position[i] < 0) continue;
+		for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k)
+			if (const int j = position[problem.column[k]]; j >= 0) column.push_back(j);
+		rowStart.push_back(int(column.size()));
 	}
-	solution = system.solve(right);
-	return true;
+	system.layOut(rowStart, column);
 }
 
 template class NewtonStep<2>;

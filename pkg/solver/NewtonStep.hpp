@@ -2,7 +2,7 @@
 #pragma once
 
 #include "BlockProblem.hpp"
-#include "SquareSystem.hpp"
+#include "BlockSystem.hpp"
 
 namespace contactdynamics {
 
@@ -29,7 +29,7 @@ public:
 	bool compute(const std::vector<Vector>& r, const std::vector<Vector>& u, double damping, std::vector<Vector>& next);
 
 	/// Cost of compute() when every contact is active, in operations of a sweep: 2 D^3 for each pair of blocks that an elimination without pivoting
-	/// meets, times the overhead that was measured.
+	/// meets, and fifty sweeps. Within a factor of two of what was measured, for 24 to 2020 contacts.
 	double cost() const;
 
 private:
@@ -38,9 +38,9 @@ private:
 	std::vector<int> position, positionBefore;	   // of a contact in the system, -1: open
 	Eigen::VectorXd right, solution;
 
-	SquareSystem system;
+	BlockSystem<D> system;
 
-	bool factorAndSolve(int size, bool samePattern, const std::vector<Eigen::Triplet<double>>& entries);
+	void layOut(int active);
 };
 
 } // namespace contactdynamics
