@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Contact problems that are hard on purpose, as FCLIB files: ``python3 tests/fclib/scenes.py FOLDER``, then ``scripts/bench fclib FOLDER``.
 
-All are W = H^T M^-1 H, q = H^T v of rigid bodies, so a solution exists unless the name says otherwise.
+All but the tangles are W = H^T M^-1 H, q = H^T v of rigid bodies or deformable ones, so a solution exists unless the name says otherwise.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+import deformable
 from problems import Local, write
 
 FALL = 9.81e-2  # m/s, gravity over a step of 10 ms
@@ -210,6 +211,9 @@ def scenes(small: bool = False) -> dict[str, Local]:
         "packing_ratio100": packing(30 * size**3, 0.5, 3, heavy=100),
         "arch_mu06": arch(9 * size, 0.6),
         "arch_mu03": arch(9 * size, 0.3),
+        "elastic_tower": deformable.tower(2 * size, 1 + size, 1e7, 0.5),
+        "elastic_tower_steel": deformable.tower(2 * size, 1 + size, 2e11, 0.5),
+        "elastic_tower_smooth": deformable.tower(2 * size, 1 + size, 1e9, 0),
         "tangle_mu3": tangle(30, 3.0, 14),
         "vice_open": vice(2 * size, -0.1),
         "unsolvable_vice": vice(2 * size, 0.1),
