@@ -14,8 +14,8 @@ namespace contactdynamics {
 
 namespace {
 
-// Costs are in Newton steps. Of 108 combinations on 46 hard problems of 20 to 790 contacts, 24 tangles and 22 steps of packings; others nearby cost up
-// to a tenth more in the mean, and on single problems twelve times as much.
+// Costs are in Newton steps. Of 108 combinations on 46 hard problems of 20 to 790 contacts, 24 tangles and 22 steps of packings; others nearby cost
+// up to a tenth more in the mean, and on single problems twelve times as much.
 constexpr int fewestSweeps = 100;
 constexpr double sweepsBeforeFinish = 5;
 constexpr double soon = 8;				// sweeps that promise to end within this go on first, to at most twice as many
