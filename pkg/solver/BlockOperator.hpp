@@ -146,7 +146,7 @@ public:
 		}
 	}
 
-	/// The same without a look at the cones, in which they lie.
+	/// The impulses as they are, also outside the cones: for Newton's method. Not to be swept from.
 	void setRaw(const std::vector<Vector>& given)
 	{
 		visitedAll = false;

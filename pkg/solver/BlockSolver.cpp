@@ -14,14 +14,15 @@ namespace contactdynamics {
 
 namespace {
 
-// Costs are in Newton steps. Of 108 combinations on 46 hard problems of 20 to 790 contacts, 24 tangles and 22 steps of packings; others nearby cost
-// up to a tenth more in the mean, and on single problems twelve times as much.
-constexpr int fewestSweeps = 100;
-constexpr double sweepsBeforeFinish = 5;
-constexpr double soon = 8;				// sweeps that promise to end within this go on first, to at most twice as many
-constexpr double stepsPerSweeps = 2;	// of a finish, over the cost of the sweeps so far
-constexpr double sweepsBeforePath = 20; // it takes 25 to 150 linear systems, rarely 250, the longest seen 1100
-constexpr double pathPerSweeps = 8;		// of a stretch, over the cost of the sweeps so far
+// The best of 108 combinations on 46 hard problems of 20 to 790 contacts, 24 tangles and 22 steps of packings; others nearby cost up to a tenth more
+// in the mean, and on single problems twelve times as much. In Newton steps:
+constexpr double worthFinish = 5; // cost of the sweeps before the first finish
+constexpr double soon = 8;		  // sweeps that promise to end within this go on first, to at most twice as many
+constexpr double worthPath = 20;  // cost of the sweeps before the path: 25 to 150 linear systems, rarely 250, the longest seen 1100
+// Over the cost of the sweeps so far:
+constexpr double finishPerSweeps = 2, pathPerSweeps = 8;
+constexpr int sweepsBeforeEstimate = 100; // of the price of a Newton step, which takes as long as some ten sweeps
+constexpr double fewestMore = 16;		  // sweeps: the rate of fewer says little
 
 /// Loop, finish and path in turn; keeps the best point.
 template <int D> class BlockSolver {
@@ -64,19 +65,20 @@ private:
 			return;
 		}
 		if (!sweepPlainly() || solved()) return;
-		if (!sweepOn(options.newtonFinish ? fewestSweeps : options.maxIterations) || solved() || !options.newtonFinish) return;
+		if (!sweepOn(options.newtonFinish ? sweepsBeforeEstimate : options.maxIterations) || solved()) return;
+		if (!options.newtonFinish || report.iterations < sweepsBeforeEstimate) return;
 		NewtonFinish<D> newton(problem, blocks);
 		const double step = inSweeps(newton.stepCost());
-		double due = sweepsBeforeFinish * step;
+		double due = worthFinish * step;
 		while (sweepWhilePromising(due, soon * step) && !solved()) {
 			const double spent = report.iterations;
 			const bool ends = report.iterations == options.maxIterations;
-			if (ends && spent < std::max<double>(fewestSweeps, step)) return;
+			if (spent < step) return;
 			if (!atBest) restore();
 			blocks.impulses(best.impulses);
-			report.newtonSteps += newton.improve(best, options.tolerance, int(std::max(1.0, stepsPerSweeps * spent / step)));
+			report.newtonSteps += newton.improve(best, options.tolerance, int(finishPerSweeps * spent / step));
 			atBest = false;
-			if (!solved() && (ends || spent >= sweepsBeforePath * step)) follow(step);
+			if (!solved() && (ends || spent >= worthPath * step)) follow(step);
 			if (solved() || ends) return;
 			restore();
 			last = best.residual;
@@ -92,7 +94,7 @@ private:
 		while (sweepOn(int(until))) {
 			const double left = sweepsLeft();
 			if (solved() || report.iterations >= most || !(left < few)) return true;
-			until = std::min(most, std::ceil(report.iterations + std::max(left, 16.0)));
+			until = std::min(most, std::ceil(report.iterations + std::max(left, fewestMore)));
 		}
 		return false;
 	}
@@ -102,7 +104,7 @@ private:
 
 	double inSweeps(double operations) const { return operations / (2.0 * double(problem.blocks.size())); }
 
-	/// Goes on along the central path as far as the sweeps so far allow. @param step  the least that a linear system may cost
+	/// Goes on along the central path as far as the sweeps so far allow. @param step  price of a Newton step: no system is taken to be cheaper
 	void follow(double step)
 	{
 		const auto reached = [&](const std::vector<Vector>& impulses) {
@@ -115,7 +117,7 @@ private:
 			report.newtonSteps += path->follow(1, reached); // tells the price of the others
 		}
 		const double system = std::max(step, inSweeps(path->systemCost()));
-		report.newtonSteps += path->follow(int(std::min(1e6, pathPerSweeps * report.iterations / system)), reached);
+		report.newtonSteps += path->follow(int(pathPerSweeps * report.iterations / system), reached);
 	}
 
 	/// Plain sweeps as long as they promise to be done soon. False when the iterate is not finite.

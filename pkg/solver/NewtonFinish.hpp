@@ -18,7 +18,7 @@ public:
 
 	NewtonFinish(const BlockProblem& problem, BlockOperator<D>& operations) : blocks(operations), step(problem), cost(step.cost()) {}
 
-	double stepCost() const { return cost; } ///< operations of a Newton step with all contacts active, an upper estimate
+	double stepCost() const { return cost; } ///< NewtonStep::cost()
 
 	/// @param best   in: where to start; out: the best point seen
 	/// @param most   Newton steps; never more than fifteen

@@ -3,6 +3,8 @@
 
 #include "ProblemBlocks.hpp"
 
+#include <algorithm>
+
 namespace contactdynamics {
 
 namespace {
@@ -85,24 +87,32 @@ template <int D> bool NewtonStep<D>::compute(const std::vector<Vector>& r, const
 
 template <int D> double NewtonStep<D>::cost() const
 {
-	// Column counts of the Cholesky factor of the block pattern, by a walk up the elimination tree from every entry of a row.
 	const int count = int(problem.contacts());
-	const auto order = minimumDegree(problem.rowStart, problem.column);
-	const Eigen::PermutationMatrix<Eigen::Dynamic> place = order.inverse();
-	std::vector<int> parent(count, -1), seen(count, -1), below(count, 0);
-	for (int row = 0; row < count; ++row) {
-		seen[row] = row;
-		const int i = order.indices()[row];
-		for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k)
-			for (int column = place.indices()[problem.column[k]]; column < row && seen[column] != row; column = parent[column]) {
-				if (parent[column] < 0) parent[column] = row;
-				++below[column];
-				seen[column] = row;
+	const double blocks = double(problem.column.size());
+	double pairs = count * (count + 1.0) * (2.0 * count + 1) / 6;
+	if (!nearlyFull(blocks, count)) {
+		// Column counts of the Cholesky factor of the block pattern, by a walk up the elimination tree from every entry of a row.
+		const Eigen::PermutationMatrix<Eigen::Dynamic> place = minimumDegree(problem.rowStart, problem.column).inverse();
+		std::vector<std::vector<int>> before(count); // entries of a row, of the pattern and its transpose
+		for (int i = 0; i < count; ++i)
+			for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k) {
+				const auto [first, second] = std::minmax(place.indices()[i], place.indices()[problem.column[k]]);
+				before[second].push_back(first);
 			}
+		std::vector<int> parent(count, -1), seen(count, -1), below(count, 0);
+		for (int row = 0; row < count; ++row) {
+			seen[row] = row;
+			for (int column : before[row])
+				for (; seen[column] != row; column = parent[column]) {
+					if (parent[column] < 0) parent[column] = row;
+					++below[column];
+					seen[column] = row;
+				}
+		}
+		pairs = 0;
+		for (const int entries : below) pairs += (entries + 1.0) * (entries + 1.0);
 	}
-	double pairs = 0;
-	for (const int blocks : below) pairs += (blocks + 1.0) * (blocks + 1.0);
-	return 2 * D * D * (assembly * double(problem.column.size()) + D * pairs);
+	return 2 * D * D * (assembly * blocks + D * pairs);
 }
 
 template <int D> void NewtonStep<D>::layOut(int active)

@@ -28,8 +28,8 @@ public:
 	/// @return         false when the system could not be solved: next is then not set
 	bool compute(const std::vector<Vector>& r, const std::vector<Vector>& u, double damping, std::vector<Vector>& next);
 
-	/// Cost of compute() when every contact is active, in operations of a sweep: 2 D^3 for each pair of blocks that an elimination without pivoting
-	/// meets, and fifty sweeps. Within a factor of two of what was measured, for 24 to 2020 contacts.
+	/// Estimated cost of compute() when every contact is active, in operations of a sweep: 2 D^3 for each pair of blocks that an elimination without
+	/// pivoting meets, and fifty sweeps. Within a factor of two on 15 problems of 24 to 2020 contacts, up to three times too little for a full W.
 	double cost() const;
 
 private:
