@@ -61,7 +61,7 @@ private:
 	void search()
 	{
 		if (options.acceleration == Acceleration::none) {
-			sweep(options.maxIterations, options.acceleration);
+			sweep(options.maxIterations);
 			return;
 		}
 		if (!sweepPlainly() || solved()) return;
@@ -125,7 +125,7 @@ private:
 	{
 		constexpr int round = 8;
 		while (report.iterations < options.maxIterations) {
-			if (!sweep(round, Acceleration::none)) return false;
+			if (!sweep(round)) return false;
 			if (solved()) return true;
 			if (report.iterations > round && !(sweepsLeft() < 60)) return true;
 		}
@@ -153,12 +153,12 @@ private:
 	double last = best.residual; // after the last sweep
 	double rate = 0;			 // of its logarithm over the last sweeps, for each of them
 
-	/// At most so many sweeps. False when the iterate is not finite.
-	bool sweep(int count, Acceleration acceleration)
+	/// At most so many plain sweeps. False when the iterate is not finite.
+	bool sweep(int count)
 	{
 		SolverOptions round = options;
 		round.maxIterations = std::min(count, options.maxIterations - report.iterations);
-		round.acceleration = acceleration;
+		round.acceleration = Acceleration::none;
 		const LoopResult result = signoriniCoulombLoop(blocks, round);
 		report.iterations += result.iterations;
 		return take(result.residual, result.iterations);

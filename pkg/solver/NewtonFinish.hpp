@@ -16,9 +16,9 @@ template <int D> class NewtonFinish {
 public:
 	using Vector = Eigen::Matrix<double, D, 1>;
 
-	NewtonFinish(const BlockProblem& problem, BlockOperator<D>& operations) : blocks(operations), step(problem), cost(step.cost()) {}
+	NewtonFinish(const BlockProblem& problem, BlockOperator<D>& operations) : blocks(operations), step(problem) {}
 
-	double stepCost() const { return cost; } ///< NewtonStep::cost()
+	double stepCost() const { return step.cost(); } ///< NewtonStep::cost()
 
 	/// @param best   in: where to start; out: the best point seen
 	/// @param most   Newton steps; never more than fifteen
@@ -28,7 +28,6 @@ public:
 private:
 	BlockOperator<D>& blocks;
 	NewtonStep<D> step;
-	double cost;
 	std::vector<Vector> point, velocity, next;
 };
 
