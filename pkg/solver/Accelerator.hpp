@@ -74,6 +74,13 @@ public:
 		return {1.5 * momentum, momentum};
 	}
 
+	/// The point was changed from outside: no momentum from before.
+	void restartMomentum()
+	{
+		restart = 1;
+		smallest = -1;
+	}
+
 	/// Momentum has once failed to make progress.
 	bool hasStalled() const { return window > patience; }
 

@@ -114,6 +114,17 @@ public:
 		return squeezeFactor<D>(problem, r, u, others);
 	}
 
+	/// Approach at the present point over the largest without any impulse.
+	double approachLeft()
+	{
+		double left = 0, largest = 0;
+		for (std::size_t i = 0; i < lanes.size(); ++i) {
+			left = std::max(left, -velocityAt(i)[0]);
+			largest = std::max(largest, -problem.q[D * i]);
+		}
+		return left > 0 ? left / largest : 0;
+	}
+
 	/// Whether a contact closes with a tenth of the largest approach without impulses though its own is a thousand times what stops that alone. Where
 	/// there is no solution Newton's method goes to infinity and leaves velocities of any size, on which squeeze() says nothing.
 	bool isLost()

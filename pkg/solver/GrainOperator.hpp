@@ -5,6 +5,7 @@
 #include "BodyTree.hpp"
 #include "Colouring.hpp"
 #include "Crew.hpp"
+#include "HotSpot.hpp"
 #include "ImpulseSet.hpp"
 #include "NaturalMap.hpp"
 #include "PackList.hpp"
@@ -41,6 +42,13 @@ public:
 	double certificate();
 	void keep();
 	void exchangeKept();
+
+	/// The contacts around the largest changes of the last sweep. False where these are spread too far, and for what a spot cannot hold: a mean field
+	/// links all contacts, rolling friction is not part of it.
+	bool takeHotSpot(HotSpot& spot) const;
+	/// The impulses of its problem in the place of those taken.
+	void putHotSpot(const HotSpot& spot);
+	double impulse2() const { return lastNorms.impulse2; } ///< of the last sweep [J]
 
 	/// Approach at the point of the last certificate() over the largest without any impulse.
 	double approachLeft() const { return maxApproachSpeed > 0 ? maxApproachSpeed / largestFreeApproach : 0; }
@@ -221,6 +229,12 @@ private:
 	void forgetLayout();
 	void putSleeper(std::int32_t id);
 	void letIdleSleep();
+	double rankChanges(HotSpot& spot, std::size_t room) const;
+	template <class Pack> static std::int32_t rankOf(const HotSpot& spot, const Pack& pack, int lane);
+	std::int32_t ranksWithin(HotSpot& spot, std::size_t room, double total) const;
+	void fillHotSpot(HotSpot& spot, std::int32_t ranks) const;
+	HotSpot::Origin originOf(const BallPack& pack, int lane) const;
+	HotSpot::Origin originOf(const GeneralPack& pack, int lane) const;
 	void extrapolate(Extrapolation by, std::size_t firstSeat, std::size_t lastSeat);
 	bool hasField() const { return problem->meanField.has_value(); }
 	void startField();

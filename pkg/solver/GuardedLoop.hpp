@@ -27,14 +27,28 @@ struct GuardedResult : LoopResult {
 ///
 /// @param lead       sweeps before a rival begins
 /// @param makeRival  called once at most: a second operator, started on the same problem
-template <class Operator, class MakeRival> GuardedResult guardedLoop(Operator& op, const SolverOptions& options, int lead, const MakeRival& makeRival)
+/// @param settle     solves the contacts around the largest changes of the operator, see HotSpotSolver.hpp
+template <class Operator, class MakeRival, class Settle>
+GuardedResult guardedLoop(Operator& op, const SolverOptions& options, int lead, const MakeRival& makeRival, const Settle& settle)
 {
 	if (options.acceleration == Acceleration::none || options.maxIterations == 0 || !op.anyAwake()) return {signoriniCoulombLoop(op, options), false};
 	const int most = options.maxIterations, lastWithMomentum = most - std::min(32, most / 8);
-	constexpr int round = 64; // sweeps before the other one has its turn
+	constexpr int round = 64;														// sweeps before the other one has its turn
+	constexpr int firstSpot = 150, betweenSpots = 50, betweenSpotsOnceStalled = 20; // sweeps
+	constexpr double pausePerCost = 0.25;											// of a spot
 	Trajectory<Operator> own(op, options, true);
 	std::optional<Trajectory<Operator>> rival;
-	int done = 0;
+	int done = 0, nextSpot = firstSpot;
+	double inSpots = 0; // less than a sweep
+	const auto settleSpot = [&] {
+		const auto spot = settle(op);
+		inSpots += spot.sweeps;
+		done += int(inSpots);
+		inSpots -= int(inSpots);
+		if (spot.settled) own.goOnFromHere();
+		nextSpot = own.sweeps() +
+				   std::max(own.hasStalled() ? betweenSpotsOnceStalled : betweenSpots, int(pausePerCost * (spot.newtonCost + spot.sweeps)));
+	};
 	const auto advance = [&](Trajectory<Operator>& runner) {
 		++done;
 		if (runner.advance()) return true;
@@ -45,8 +59,10 @@ template <class Operator, class MakeRival> GuardedResult guardedLoop(Operator& o
 		if (!rival && own.hasStalled() && own.sweeps() >= lead) rival.emplace(makeRival(), options, false);
 		const bool byRival = rival && rival->sweeps() < own.sweeps() + round;
 		Trajectory<Operator>& runner = byRival ? *rival : own;
-		for (int i = rival ? round : 1; i > 0 && done < lastWithMomentum; --i)
+		for (int i = rival ? round : 1; i > 0 && done < lastWithMomentum; --i) {
+			if (!byRival && own.sweeps() >= nextSpot) settleSpot();
 			if (advance(runner)) return {{done, runner.residual()}, byRival};
+		}
 	}
 	own.endPlainly();
 	while (done < most)

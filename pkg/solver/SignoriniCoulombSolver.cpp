@@ -4,6 +4,7 @@
 #include "GrainOperator.hpp"
 #include "GrainSqueeze.hpp"
 #include "GuardedLoop.hpp"
+#include "HotSpotSolver.hpp"
 
 #include <cmath>
 #include <optional>
@@ -14,6 +15,7 @@ namespace contactdynamics {
 
 struct SignoriniCoulombSolver::Workspace {
 	GrainOperator grains, rival;
+	HotSpotSolver spots;
 	GrainSqueeze squeeze;
 	ImpulseSet added;
 	std::optional<Crew> crew;
@@ -149,10 +151,17 @@ SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOpt
 	Crew& crew = workspace->crewFor(problem, options.threads);
 	const AtWork work(crew);
 	grains.start(problem, options.acceleration != Acceleration::none, crew);
-	const GuardedResult result = guardedLoop(grains, options, leadOfMomentum(grains.movingBodies()), [&]() -> GrainOperator& {
+	const auto makeRival = [&]() -> GrainOperator& {
 		rival.start(problem, false, crew);
 		return rival;
-	});
+	};
+	workspace->spots.start();
+	const auto settle = [&](GrainOperator& op) {
+		const HotSpotSolver::Outcome outcome = workspace->spots.settle(op, options.tolerance, crew);
+		report.newtonSteps += outcome.newtonSteps;
+		return outcome;
+	};
+	const GuardedResult result = guardedLoop(grains, options, leadOfMomentum(grains.movingBodies()), makeRival, settle);
 	report.iterations = result.iterations;
 	report.residual = result.residual;
 	if (!std::isfinite(result.residual)) return report;

@@ -57,6 +57,13 @@ public:
 		return false;
 	}
 
+	/// The operator was changed between two sweeps: the next one starts where it is now.
+	void goOnFromHere()
+	{
+		extrapolation = {};
+		accelerator.restartMomentum();
+	}
+
 	/// Residual of the present point, sleeping contacts looked after.
 	double certify()
 	{

@@ -14,6 +14,13 @@ using namespace contactdynamics;
 namespace {
 
 constexpr int never = std::numeric_limits<int>::max();
+/// What is done about the largest changes: nothing here.
+struct Unsettled {
+	bool settled = false;
+	double sweeps = 0, newtonCost = 0;
+};
+template <class Operator> Unsettled leaveThem(Operator&) { return {}; }
+
 constexpr int firstStall = 122; // the sweep that sets the mark, 120 that do not pass it, and the one that notices
 
 /// Sweeps whose increments stay as they are until one of them meets the tolerance.
@@ -60,11 +67,14 @@ Solve solve(Scripted op, Scripted rival, int lead, int maxIterations = 100000)
 	SolverOptions options;
 	options.maxIterations = maxIterations;
 	Solve made{{}, never, {}};
-	made.result = guardedLoop(op, options, lead, [&]() -> Scripted& {
-		EXPECT_EQ(made.begun, never) << "a second rival";
-		made.begun = op.sweeps;
-		return rival;
-	});
+	made.result = guardedLoop(
+			op, options, lead,
+			[&]() -> Scripted& {
+				EXPECT_EQ(made.begun, never) << "a second rival";
+				made.begun = op.sweeps;
+				return rival;
+			},
+			leaveThem<Scripted>);
 	made.startsOfRival = rival.starts;
 	return made;
 }
@@ -94,10 +104,13 @@ TEST(Loop, PlainWithoutAcceleration)
 	SolverOptions plain;
 	plain.acceleration = Acceleration::none;
 	bool begun = false;
-	guardedLoop(op, plain, 0, [&]() -> Scripted& {
-		begun = true;
-		return rival;
-	});
+	guardedLoop(
+			op, plain, 0,
+			[&]() -> Scripted& {
+				begun = true;
+				return rival;
+			},
+			leaveThem<Scripted>);
 	EXPECT_FALSE(begun);
 	for (const Extrapolation& from : op.starts) EXPECT_TRUE(isPlain(from));
 }
@@ -125,13 +138,68 @@ TEST(Loop, MomentumGoesOnBesideTheRival)
 	}
 }
 
+/// Outside the loop a few contacts are solved from time to time; more often where momentum has stalled, less often where that is dear.
+TEST(Loop, SettlesTheLargestChangesFromTimeToTime)
+{
+	SolverOptions options;
+	options.maxIterations = 2000;
+	const auto solveWith = [&](Unsettled outcome) {
+		Scripted op, rival;
+		std::vector<int> at;
+		const GuardedResult result = guardedLoop(
+				op, options, never, [&]() -> Scripted& { return rival; },
+				[&](Scripted& its) {
+					at.push_back(its.sweeps);
+					return outcome;
+				});
+		EXPECT_EQ(result.iterations, 2000);
+		for (const int sweeps : outcome.settled ? at : std::vector<int>())
+			EXPECT_TRUE(isPlain(op.starts[sweeps])) << "momentum from before, sweep " << sweeps;
+		return at;
+	};
+	// Stalled already: the increments of the script never fall.
+	const std::vector<int> often = solveWith({true, 0, 0});
+	ASSERT_GT(often.size(), 2u);
+	EXPECT_EQ(often[0], 150);
+	for (std::size_t i = 1; i < often.size(); ++i) EXPECT_EQ(often[i] - often[i - 1], 20);
+	EXPECT_EQ(often.back(), 150 + (1967 - 150) / 20 * 20); // not in the last 32 sweeps, which are plain
+	// What a spot has cost in sweeps counts as such, and four times as many are done before the next.
+	const std::vector<int> seldom = solveWith({false, 0.5, 399.5});
+	EXPECT_EQ(seldom[1] - seldom[0], 100);
+	EXPECT_NEAR(seldom.back(), 2000 - 32 - 0.5 * double(seldom.size()), 100 + 1);
+}
+
+/// Before momentum has stalled there is less to settle.
+TEST(Loop, SettlesLessOftenWhileMomentumGainsGround)
+{
+	struct Falling : Scripted {
+		SweepNorms sweep(Extrapolation from)
+		{
+			Scripted::sweep(from);
+			return {std::pow(0.99, sweeps), 1};
+		}
+	} op, rival;
+	std::vector<int> at;
+	guardedLoop(
+			op, {}, never, [&]() -> Falling& { return rival; },
+			[&](Falling& its) {
+				at.push_back(its.sweeps);
+				return Unsettled{};
+			});
+	ASSERT_GT(at.size(), 2u);
+	for (std::size_t i = 1; i < at.size(); ++i) EXPECT_EQ(at[i] - at[i - 1], 50);
+}
+
 TEST(Loop, EndsPlainly)
 {
 	for (const int most : {1000, 100}) {
 		Scripted op, rival;
 		SolverOptions options;
 		options.maxIterations = most;
-		EXPECT_EQ(guardedLoop(op, options, never, [&]() -> Scripted& { return rival; }).iterations, most);
+		EXPECT_EQ(guardedLoop(
+						  op, options, never, [&]() -> Scripted& { return rival; }, leaveThem<Scripted>)
+						  .iterations,
+				  most);
 		EXPECT_EQ(rival.sweeps, 0);
 		const int plain = std::min(32, most / 8);
 		ASSERT_EQ(op.starts.size(), std::size_t(most));
@@ -179,7 +247,8 @@ TEST(Loop, TakesUpTheBestPointAndReturnsItWhereTheSweepsRunOut)
 	for (const int best : {600, 700, 900}) {
 		Wandering op, rival;
 		op.best = best;
-		const GuardedResult result = guardedLoop(op, {}, never, [&]() -> Wandering& { return rival; });
+		const GuardedResult result = guardedLoop(
+				op, {}, never, [&]() -> Wandering& { return rival; }, leaveThem<Wandering>);
 		EXPECT_EQ(result.iterations, 1000);
 		EXPECT_EQ(result.residual, op.point);
 		EXPECT_GE(result.residual, 1);
@@ -195,7 +264,8 @@ TEST(Loop, ReturnsThePointWithTheBetterCertificate)
 {
 	Wandering op, rival;
 	op.misleads = true;
-	const GuardedResult result = guardedLoop(op, {}, never, [&]() -> Wandering& { return rival; });
+	const GuardedResult result = guardedLoop(
+			op, {}, never, [&]() -> Wandering& { return rival; }, leaveThem<Wandering>);
 	EXPECT_EQ(op.point, 1 + 0.01 * std::abs(1000 - op.best));
 	EXPECT_EQ(result.residual, 1 / op.point);
 }
@@ -206,7 +276,8 @@ TEST(Loop, ReturnsTheBestPointOfTheRival)
 	Wandering op, rival;
 	op.best = 4000; // at 4000 - sweeps of 100 or more
 	rival.best = 400;
-	const GuardedResult result = guardedLoop(op, {}, 0, [&]() -> Wandering& { return rival; });
+	const GuardedResult result = guardedLoop(
+			op, {}, 0, [&]() -> Wandering& { return rival; }, leaveThem<Wandering>);
 	EXPECT_TRUE(result.byRival);
 	EXPECT_EQ(result.residual, rival.point);
 	EXPECT_LE(result.residual, 1 / std::sqrt(0.8));
@@ -217,7 +288,8 @@ TEST(Loop, KeepsNothingWithoutAcceleration)
 	Wandering op, rival;
 	SolverOptions plain;
 	plain.acceleration = Acceleration::none;
-	const GuardedResult result = guardedLoop(op, plain, 0, [&]() -> Wandering& { return rival; });
+	const GuardedResult result = guardedLoop(
+			op, plain, 0, [&]() -> Wandering& { return rival; }, leaveThem<Wandering>);
 	EXPECT_TRUE(op.pointsAtExchange.empty());
 	EXPECT_EQ(op.kept, 0);
 	EXPECT_EQ(result.residual, 1 + 0.01 * std::abs(1000 - op.best)); // the last one, as Gauss-Seidel leaves it
