@@ -103,6 +103,7 @@ void ContactDynamicsEngine::solve()
 {
 	const auto report = step->solve(tolerance, maxIterations, acceleration != "none");
 	iterations = report.iterations;
+	newtonSteps = report.newtonSteps;
 	residual = report.residual;
 	maxApproachSpeed = report.maxApproachSpeed;
 	converged = report.status == contactdynamics::SolveStatus::converged;

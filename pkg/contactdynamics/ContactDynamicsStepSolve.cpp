@@ -62,9 +62,10 @@ contactdynamics::SolveReport ContactDynamicsStep::solveAtRest(const contactdynam
 	contactdynamics::SolverOptions rest = options;
 	rest.maxIterations = options.maxIterations - report.iterations;
 	if (rest.maxIterations < 1) return report;
-	const int done = report.iterations;
+	const auto before = report;
 	report = solver.solve(problem, rest);
-	report.iterations += done;
+	report.iterations += before.iterations;
+	report.newtonSteps += before.newtonSteps;
 	return report;
 }
 

@@ -52,6 +52,10 @@ public:
 			}
 			if (easy) return {};
 		}
+		if (fromOutside) {
+			fromOutside = false;
+			return {};
+		}
 		if (settling > 0) {
 			--settling;
 			return {0.3, 0.2};
@@ -74,11 +78,12 @@ public:
 		return {1.5 * momentum, momentum};
 	}
 
-	/// The point was changed from outside: no momentum from before.
+	/// The point was changed from outside: no momentum from before, nor from the change, which counts as one of the sweep before.
 	void restartMomentum()
 	{
 		restart = 1;
 		smallest = -1;
+		fromOutside = true;
 	}
 
 	/// Momentum has once failed to make progress.
@@ -102,7 +107,8 @@ private:
 	double smallest = -1; // increment since the restart
 	double best = -1;
 	int sinceBest = 0, window = patience; // sweeps without progress, now and at most
-	int settling = 0;					  // sweeps with a light momentum that are left
+	bool fromOutside = false;
+	int settling = 0; // sweeps with a light momentum that are left
 };
 
 } // namespace contactdynamics

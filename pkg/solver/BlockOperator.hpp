@@ -114,7 +114,7 @@ public:
 		return squeezeFactor<D>(problem, r, u, others);
 	}
 
-	/// Approach at the present point over the largest without any impulse.
+	/// Approach at the present point over the largest without any impulse [-]; 0 where nothing approaches.
 	double approachLeft()
 	{
 		double left = 0, largest = 0;

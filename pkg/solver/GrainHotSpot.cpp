@@ -93,7 +93,7 @@ double GrainOperator::rankChanges(HotSpot& spot, std::size_t room) const
 	return total;
 }
 
-/// That of the first of its bodies.
+/// The lower rank of its two bodies.
 template <class Pack> std::int32_t GrainOperator::rankOf(const HotSpot& spot, const Pack& pack, int lane)
 {
 	return std::min(spot.rank[seatOf(pack.body1[lane])], spot.rank[seatOf(pack.body2[lane])]);

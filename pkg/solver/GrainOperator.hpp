@@ -43,10 +43,10 @@ public:
 	void keep();
 	void exchangeKept();
 
-	/// The contacts around the largest changes of the last sweep. False where these are spread too far, and for what a spot cannot hold: a mean field
-	/// links all contacts, rolling friction is not part of it.
+	/// The contacts around the largest changes of the last sweep. False where these are spread too far or at a body with more loaded contacts than
+	/// there is room for, and for what a spot cannot hold: a mean field links all contacts, rolling friction is not part of it.
 	bool takeHotSpot(HotSpot& spot) const;
-	/// The impulses of its problem in the place of those taken.
+	/// The impulses of its problem in the place of those taken since the last sweep.
 	void putHotSpot(const HotSpot& spot);
 	double impulse2() const { return lastNorms.impulse2; } ///< of the last sweep [J]
 

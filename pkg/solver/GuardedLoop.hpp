@@ -22,12 +22,16 @@ struct GuardedResult : LoopResult {
 /// sweeps on 10 of 16 heaps with mu from 0.3 to 1, where momentum fails on 5: its jumps cross changes of status); plain sweeps shortened to 0.6 (four
 /// heaps of seven with mu from 0.8 to 1 still cycle).
 ///
+/// From the 150th sweep on, contacts that sweeps cannot settle are solved on their own (HotSpotSolver.hpp); what that takes counts as sweeps of the
+/// operator. More often where momentum has stalled, less often after a dear one (what else was tried: doc/grains.rst).
+///
 /// Where the sweeps run out, the point with the smallest increments of their second half is taken up again, the last sweeps are plain from there, and
 /// the best point by certificate is returned.
 ///
 /// @param lead       sweeps before a rival begins
 /// @param makeRival  called once at most: a second operator, started on the same problem
-/// @param settle     solves the contacts around the largest changes of the operator, see HotSpotSolver.hpp
+/// @param settle     given the operator, the sweeps that are left and those that it has done: solves the contacts around its largest changes, and
+///                   says whether it did, for the price of how many sweeps, and of how many its Newton steps (HotSpotSolver::Outcome)
 template <class Operator, class MakeRival, class Settle>
 GuardedResult guardedLoop(Operator& op, const SolverOptions& options, int lead, const MakeRival& makeRival, const Settle& settle)
 {
@@ -39,12 +43,13 @@ GuardedResult guardedLoop(Operator& op, const SolverOptions& options, int lead, 
 	Trajectory<Operator> own(op, options, true);
 	std::optional<Trajectory<Operator>> rival;
 	int done = 0, nextSpot = firstSpot;
-	double inSpots = 0; // less than a sweep
+	double inSpots = 0; // sweeps
+	const auto sweepsOfOwn = [&] { return own.sweeps() + int(inSpots); };
 	const auto settleSpot = [&] {
-		const auto spot = settle(op);
+		const auto spot = settle(op, lastWithMomentum - done, own.sweeps());
+		done -= int(inSpots);
 		inSpots += spot.sweeps;
 		done += int(inSpots);
-		inSpots -= int(inSpots);
 		if (spot.settled) own.goOnFromHere();
 		nextSpot = own.sweeps() +
 				   std::max(own.hasStalled() ? betweenSpotsOnceStalled : betweenSpots, int(pausePerCost * (spot.newtonCost + spot.sweeps)));
@@ -56,8 +61,8 @@ GuardedResult guardedLoop(Operator& op, const SolverOptions& options, int lead, 
 		return false;
 	};
 	while (done < lastWithMomentum) {
-		if (!rival && own.hasStalled() && own.sweeps() >= lead) rival.emplace(makeRival(), options, false);
-		const bool byRival = rival && rival->sweeps() < own.sweeps() + round;
+		if (!rival && own.hasStalled() && sweepsOfOwn() >= lead) rival.emplace(makeRival(), options, false);
+		const bool byRival = rival && rival->sweeps() < sweepsOfOwn() + round;
 		Trajectory<Operator>& runner = byRival ? *rival : own;
 		for (int i = rival ? round : 1; i > 0 && done < lastWithMomentum; --i) {
 			if (!byRival && own.sweeps() >= nextSpot) settleSpot();

@@ -10,7 +10,8 @@ namespace contactdynamics {
 
 /// The contacts around the largest changes of a sweep, as a problem of their own; all others keep their impulses. Filled by GrainOperator.
 struct HotSpot {
-	/// Loaded contacts at most, a few grains with all theirs; half as many after one that could not be solved. 128 take a tenth to a third more time.
+	/// Loaded contacts at most, a few grains with all theirs; half as many after one that could not be solved. With 128 solves take up to twice the
+	/// time.
 	static constexpr std::size_t mostContacts = 64, fewestContacts = 16;
 	static constexpr std::size_t contactsPerSpot = 1500; ///< larger collections have room for so many times as much
 	/// Of the changes, squared: at least so much has to lie in the spot, and no more than so much is asked for.
@@ -27,7 +28,7 @@ struct HotSpot {
 		bool ball;
 	};
 	struct Change {
-		double size2; // of the impulse, W-norm [J]
+		double size2; // dr^T W dr [J]
 		Origin of;
 	};
 	std::vector<Origin> origins;			// parallel to problem.contacts

@@ -15,11 +15,21 @@ constexpr int mostSweeps = 300;		// mostly a few dozen; those that do not end by
 constexpr double ofTolerance = 0.3; // what a spot may keep of the residual
 constexpr int mostNewtonSteps = 10; // where it works at all it takes three to five
 constexpr std::size_t mostContactsOfNewton = 100;
+constexpr double newtonPerSweeps =
+		5; // cost of all Newton steps of a solve over that of its sweeps, at most; with 2 one step in 200 was missed for it
 constexpr double visitsPerSquare = 7; // a Newton step for n contacts takes as long as 7 n^2 visits: 60 us for 24, 0.3 ms for 64
 
 } // namespace
 
-HotSpotSolver::Outcome HotSpotSolver::settle(GrainOperator& op, double tolerance, Crew& crew)
+void HotSpotSolver::start()
+{
+	spot.room = HotSpot::mostContacts;
+	spot.bodyOf.clear(); // whichever way the last solve was left
+	bodyOf.clear();
+	newtonSpent = 0;
+}
+
+HotSpotSolver::Outcome HotSpotSolver::settle(GrainOperator& op, const Terms& terms, Crew& crew)
 {
 	Outcome outcome;
 	if (!op.takeHotSpot(spot)) return outcome;
@@ -29,9 +39,8 @@ HotSpotSolver::Outcome HotSpotSolver::settle(GrainOperator& op, double tolerance
 		take(members[k]);
 		double impulse2 = 0;
 		for (const std::int32_t i : members[k]) impulse2 += spot.impulse2[i];
-		const double own = impulse2 > 0 ? ofTolerance * tolerance * std::sqrt(op.impulse2() / impulse2) : ofTolerance;
-		const double bound = std::min(own, ofTolerance);
-		if (!sweep(bound, crew, outcome) && !solveByNewton(bound, outcome)) {
+		const double own = impulse2 > 0 ? ofTolerance * terms.tolerance * std::sqrt(op.impulse2() / (parts * impulse2)) : ofTolerance;
+		if (!solve(std::min(own, ofTolerance), terms, crew, outcome)) {
 			all = false;
 			continue;
 		}
@@ -69,10 +78,12 @@ void HotSpotSolver::take(const std::vector<std::int32_t>& contacts)
 {
 	part.bodies.clear();
 	part.contacts.clear();
-	bodyOf.assign(spot.problem.bodies.size(), -1);
+	bodiesOfPart.clear();
+	bodyOf.resize(spot.problem.bodies.size(), -1);
 	const auto bodyAt = [&](std::int32_t of) {
 		if (bodyOf[of] < 0) {
 			bodyOf[of] = std::int32_t(part.bodies.size());
+			bodiesOfPart.push_back(of);
 			part.bodies.push_back(spot.problem.bodies[of]);
 		}
 		return bodyOf[of];
@@ -83,27 +94,34 @@ void HotSpotSolver::take(const std::vector<std::int32_t>& contacts)
 		c.body2 = bodyAt(c.body2);
 		part.contacts.push_back(c);
 	}
+	for (const std::int32_t body : bodiesOfPart) bodyOf[body] = -1;
 }
 
-bool HotSpotSolver::sweep(double tolerance, Crew& crew, Outcome& outcome)
+/// By sweeps, or else by Newton steps. Impulses that leave contacts closing are not taken: where there is no solution, any relative tolerance is met
+/// by impulses that are large enough, which Newton's method finds at once, and the guard of the whole collection must not be handed such impulses.
+bool HotSpotSolver::solve(double tolerance, const Terms& terms, Crew& crew, Outcome& outcome)
 {
+	const double share = double(part.contacts.size()) / double(spot.awake);
 	SolverOptions options;
 	options.tolerance = tolerance;
-	options.maxIterations = mostSweeps;
-	sweeps.start(part, true, crew);
-	const LoopResult result = signoriniCoulombLoop(sweeps, options);
-	outcome.sweeps += result.iterations * double(part.contacts.size()) / double(spot.awake);
+	options.maxIterations = int(std::min<double>(mostSweeps, (terms.sweepsLeft - outcome.sweeps) / share));
+	if (options.maxIterations < 1) return false;
+	operatorOfPart.start(part, true, crew);
+	const LoopResult result = signoriniCoulombLoop(operatorOfPart, options);
+	outcome.sweeps += result.iterations * share;
 	if (!std::isfinite(result.residual)) return false;
 	SolveReport report;
-	sweeps.finish(report);
-	return result.residual <= tolerance && sweeps.approachLeft() < Squeeze::leastApproach;
+	operatorOfPart.finish(report);
+	if (result.residual > tolerance) return solveByNewton(tolerance, terms, outcome);
+	return result.residual == 0 || operatorOfPart.approachLeft() < Squeeze::leastApproach;
 }
 
-/// From where the sweeps have ended. Where there is no solution, Newton's method meets any relative tolerance by impulses that are large enough, as
-/// sweeps do in the end; contacts go on closing then, and the guard of the whole collection must not be handed such impulses.
-bool HotSpotSolver::solveByNewton(double tolerance, Outcome& outcome)
+/// From where the sweeps have ended.
+bool HotSpotSolver::solveByNewton(double tolerance, const Terms& terms, Outcome& outcome)
 {
-	if (part.contacts.size() > mostContactsOfNewton) return false;
+	const double contacts = double(part.contacts.size()), price = visitsPerSquare * contacts * contacts / double(spot.awake);
+	const int most = int(std::min<double>(mostNewtonSteps, (newtonPerSweeps * terms.sweepsDone - newtonSpent) / price));
+	if (part.contacts.size() > mostContactsOfNewton || most < 1) return false;
 	frames.clear();
 	for (const Contact& c : part.contacts) frames.push_back(contactFrame(c.normal));
 	BlockProblem problem = assembled(part, frames);
@@ -111,10 +129,10 @@ bool HotSpotSolver::solveByNewton(double tolerance, Outcome& outcome)
 	CertifiedPoint<3> best{blocks.certificate(), {}};
 	if (!std::isfinite(best.residual)) return false;
 	blocks.impulses(best.impulses);
-	const double contacts = double(part.contacts.size());
-	const int steps = NewtonFinish<3>(problem, blocks).improve(best, tolerance, mostNewtonSteps);
+	const int steps = NewtonFinish<3>(problem, blocks).improve(best, tolerance, most);
 	outcome.newtonSteps += steps;
-	outcome.newtonCost += steps * visitsPerSquare * contacts * contacts / double(spot.awake);
+	outcome.newtonCost += steps * price;
+	newtonSpent += steps * price;
 	if (best.residual > tolerance) return false;
 	blocks.setImpulses(best.impulses);
 	if (blocks.approachLeft() >= Squeeze::leastApproach) return false;

@@ -6,7 +6,7 @@
 namespace contactdynamics {
 
 struct LoopResult {
-	int iterations = 0;	 ///< sweeps, those of a rival included
+	int iterations = 0;	 ///< sweeps, those of a rival and the share of those over hot spots included
 	double residual = 0; ///< certificate at the last point; not finite when the iterate is not
 };
 

@@ -156,8 +156,8 @@ SolveReport SignoriniCoulombSolver::solve(GrainProblem& problem, const SolverOpt
 		return rival;
 	};
 	workspace->spots.start();
-	const auto settle = [&](GrainOperator& op) {
-		const HotSpotSolver::Outcome outcome = workspace->spots.settle(op, options.tolerance, crew);
+	const auto settle = [&](GrainOperator& op, int sweepsLeft, int sweepsDone) {
+		const HotSpotSolver::Outcome outcome = workspace->spots.settle(op, {options.tolerance, sweepsLeft, sweepsDone}, crew);
 		report.newtonSteps += outcome.newtonSteps;
 		return outcome;
 	};

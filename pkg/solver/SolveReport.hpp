@@ -12,8 +12,8 @@ enum class SolveStatus {
 
 struct SolveReport {
 	SolveStatus status = SolveStatus::converged;
-	int iterations = 0;			 ///< sweeps done
-	int newtonSteps = 0;		 ///< explicit block problems only: linear systems solved by Newton finish and central path
+	int iterations = 0;			 ///< sweeps done; grains: those over hot spots by their share of the contacts
+	int newtonSteps = 0;		 ///< linear systems solved: by Newton finish and central path; grains: in hot spots (HotSpotSolver.hpp)
 	double residual = 0;		 ///< relative natural map at the returned point, over all contacts, see NaturalMap.hpp [-]
 	double maxApproachSpeed = 0; ///< largest max(0, -(U_N + s)) at the returned point [m/s]
 	int activeContacts = 0;		 ///< contacts with a non-zero impulse

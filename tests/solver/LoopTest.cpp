@@ -14,12 +14,13 @@ using namespace contactdynamics;
 namespace {
 
 constexpr int never = std::numeric_limits<int>::max();
-/// What is done about the largest changes: nothing here.
-struct Unsettled {
+
+struct SpotOutcome {
 	bool settled = false;
 	double sweeps = 0, newtonCost = 0;
 };
-template <class Operator> Unsettled leaveThem(Operator&) { return {}; }
+/// Nothing is done about the largest changes.
+template <class Operator> SpotOutcome leaveThem(Operator&, int, int) { return {}; }
 
 constexpr int firstStall = 122; // the sweep that sets the mark, 120 that do not pass it, and the one that notices
 
@@ -143,30 +144,54 @@ TEST(Loop, SettlesTheLargestChangesFromTimeToTime)
 {
 	SolverOptions options;
 	options.maxIterations = 2000;
-	const auto solveWith = [&](Unsettled outcome) {
+	std::size_t sweeps = 0;
+	const auto solveWith = [&](SpotOutcome outcome) {
 		Scripted op, rival;
 		std::vector<int> at;
 		const GuardedResult result = guardedLoop(
 				op, options, never, [&]() -> Scripted& { return rival; },
-				[&](Scripted& its) {
+				[&](Scripted& its, int left, int done) {
+					EXPECT_EQ(done, its.sweeps);
+					EXPECT_LE(left, 2000 - 32 - its.sweeps);
 					at.push_back(its.sweeps);
 					return outcome;
 				});
 		EXPECT_EQ(result.iterations, 2000);
-		for (const int sweeps : outcome.settled ? at : std::vector<int>())
-			EXPECT_TRUE(isPlain(op.starts[sweeps])) << "momentum from before, sweep " << sweeps;
+		sweeps = op.starts.size();
+		// The change is not carried on by momentum, neither in the sweep that follows nor in the one after it, also while a stall is settled.
+		for (const int first : outcome.settled ? at : std::vector<int>())
+			EXPECT_TRUE(isPlain(op.starts[first]) && isPlain(op.starts[first + 1])) << "after sweep " << first;
 		return at;
 	};
 	// Stalled already: the increments of the script never fall.
 	const std::vector<int> often = solveWith({true, 0, 0});
+	EXPECT_EQ(sweeps, 2000u);
 	ASSERT_GT(often.size(), 2u);
 	EXPECT_EQ(often[0], 150);
 	for (std::size_t i = 1; i < often.size(); ++i) EXPECT_EQ(often[i] - often[i - 1], 20);
 	EXPECT_EQ(often.back(), 150 + (1967 - 150) / 20 * 20); // not in the last 32 sweeps, which are plain
-	// What a spot has cost in sweeps counts as such, and four times as many are done before the next.
-	const std::vector<int> seldom = solveWith({false, 0.5, 399.5});
+	// What a spot costs counts as sweeps, Newton steps do not, and a quarter of both is waited for.
+	const std::vector<int> seldom = solveWith({false, 2.5, 397.5});
 	EXPECT_EQ(seldom[1] - seldom[0], 100);
-	EXPECT_NEAR(seldom.back(), 2000 - 32 - 0.5 * double(seldom.size()), 100 + 1);
+	EXPECT_EQ(sweeps, 2000 - std::size_t(2.5 * double(seldom.size())));
+}
+
+/// The rival keeps up with what spots cost, too: where plain sweeps alone take P, everything ends by 2 P, or P more than the lead.
+TEST(Loop, CostsTwiceThePlainSweepsWithSpotsToo)
+{
+	for (int needed = 400; needed < 6000; needed += 97) {
+		Scripted op, rival = solvedAfter(needed);
+		SolverOptions options;
+		options.maxIterations = 100000;
+		const double ofSpot = 17.25;
+		const GuardedResult result = guardedLoop(
+				op, options, 1000, [&]() -> Scripted& { return rival; },
+				[&](Scripted&, int, int) {
+					return SpotOutcome{true, ofSpot, 1000};
+				});
+		EXPECT_TRUE(result.byRival);
+		EXPECT_LE(result.iterations, needed + std::max(needed, 1000) + ofSpot + 1) << needed; // a spot is not left half-way
+	}
 }
 
 /// Before momentum has stalled there is less to settle.
@@ -182,9 +207,9 @@ TEST(Loop, SettlesLessOftenWhileMomentumGainsGround)
 	std::vector<int> at;
 	guardedLoop(
 			op, {}, never, [&]() -> Falling& { return rival; },
-			[&](Falling& its) {
+			[&](Falling& its, int, int) {
 				at.push_back(its.sweeps);
-				return Unsettled{};
+				return SpotOutcome{};
 			});
 	ASSERT_GT(at.size(), 2u);
 	for (std::size_t i = 1; i < at.size(); ++i) EXPECT_EQ(at[i] - at[i - 1], 50);
