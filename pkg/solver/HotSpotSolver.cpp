@@ -12,7 +12,7 @@ namespace contactdynamics {
 namespace {
 
 constexpr int mostSweeps = 300;		// mostly a few dozen; those that do not end by then go round in circles, however many there are
-constexpr double ofTolerance = 0.3; // what a spot may keep of the residual
+constexpr double ofTolerance = 0.3; // what each part may keep of the residual; less with many parts: up to twice the sweeps
 constexpr int mostNewtonSteps = 10; // where it works at all it takes three to five
 constexpr std::size_t mostContactsOfNewton = 100;
 constexpr double newtonPerSweeps =
@@ -39,7 +39,7 @@ HotSpotSolver::Outcome HotSpotSolver::settle(GrainOperator& op, const Terms& ter
 		take(members[k]);
 		double impulse2 = 0;
 		for (const std::int32_t i : members[k]) impulse2 += spot.impulse2[i];
-		const double own = impulse2 > 0 ? ofTolerance * terms.tolerance * std::sqrt(op.impulse2() / (parts * impulse2)) : ofTolerance;
+		const double own = impulse2 > 0 ? ofTolerance * terms.tolerance * std::sqrt(op.impulse2() / impulse2) : ofTolerance;
 		if (!solve(std::min(own, ofTolerance), terms, crew, outcome)) {
 			all = false;
 			continue;
