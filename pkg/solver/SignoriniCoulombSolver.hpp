@@ -10,8 +10,8 @@
 namespace contactdynamics {
 
 /// Solves 0 <= U_N + s _|_ R_N >= 0 with Coulomb's law at all contacts of a collection of rigid bodies: the Signorini-Coulomb loop (Jean 1999, 5.4).
-/// Owns the work space, so that a step allocates nothing once warm, but for the Newton steps of some hard ones (HotSpotSolver.hpp). The result is a function of problem and options alone:
-/// no memory between calls changes the numbers, and any thread count gives the same bits.
+/// Owns the work space, so that a step allocates nothing once warm, but for the Newton steps of some hard ones (HotSpotSolver.hpp). The result is a
+/// function of problem and options alone: no memory between calls changes the numbers, and any thread count gives the same bits.
 class SignoriniCoulombSolver {
 public:
 	SignoriniCoulombSolver();
