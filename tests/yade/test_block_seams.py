@@ -88,8 +88,9 @@ def test_tumbling_block_does_not_feel_joints(ground: str) -> None:
         tracks.append(np.array(track))
     assert tracks[0][-1][0] > -1.9
     # The direction of last step is kept while another is better by no more than 1e-6 of the size, and which one is first depends on the pieces; at
-    # the impact of the edge that counts with its speed of some m/s.
-    assert np.abs(tracks[0] - tracks[1]).max() <= 1e-5
+    # the impact of the edge that counts with its speed of some m/s, twice that with lever arms over radii of gyration: 1e-5. On its edge the block is
+    # an inverted pendulum, so that it grows by exp(t sqrt(g / l)), some 4 in the 0.25 s that follow (l = 0.36 m from edge to centre).
+    assert np.abs(tracks[0] - tracks[1]).max() <= 4e-5
 
 
 @pytest.mark.parametrize("height", [1e-3, 0.05])

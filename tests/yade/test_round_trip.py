@@ -89,6 +89,7 @@ SCENES: dict[str, Callable[[], None]] = {
     "triaxial with walls of given mass": lambda: _triaxial(wall_mass=5e3),
 }
 ENDINGS = [".xml", ".yade"]  # the two kinds of archives; those of others are compressed
+RARE = {"ContactDynamicsEngine.newtonSteps"}  # 0 in all these scenes, whose steps sweeps solve; read-only, so that none can be given
 COMPUTED = {f"ContactDynamicsManifoldPhys.{name}" for name in ("pointImpulses", "pointForces")}  # from those of ofPoint, when they are asked for
 
 
@@ -135,4 +136,4 @@ def test_every_attribute_had_two_values(files: dict[str, dict[str, list[Attribut
             for name, value in attributes.items():
                 if name.split(".")[0] in CLASSES:
                     values.setdefault(name, set()).add(value)
-    assert {name for name, seen in values.items() if len(seen) < 2} == COMPUTED
+    assert {name for name, seen in values.items() if len(seen) < 2} == COMPUTED | RARE
