@@ -2,8 +2,9 @@
 #pragma once
 
 #include "BallPack.hpp"
+#include "GrainProblem.hpp"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace contactdynamics {
 
@@ -12,5 +13,13 @@ inline Eigen::Map<const Eigen::Vector3d> velocity(const BodyState& body) { retur
 inline Eigen::Map<const Eigen::Vector3d> angularVelocity(const BodyState& body) { return Eigen::Map<const Eigen::Vector3d>(body.angularVelocity); }
 inline Eigen::Map<Eigen::Vector3d> velocity(BodyState& body) { return Eigen::Map<Eigen::Vector3d>(body.velocity); }
 inline Eigen::Map<Eigen::Vector3d> angularVelocity(BodyState& body) { return Eigen::Map<Eigen::Vector3d>(body.angularVelocity); }
+
+/// Adds to the velocities what an impulse with this arm does to the body.
+template <class Linear, class Angular>
+void push(Linear&& velocity, Angular&& angularVelocity, const Body& body, const Vector3& arm, const Vector3& impulse)
+{
+	velocity += body.inverseMass.cwiseProduct(impulse);
+	angularVelocity += body.inverseInertia * arm.cross(impulse);
+}
 
 } // namespace contactdynamics

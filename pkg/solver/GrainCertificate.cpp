@@ -56,15 +56,11 @@ void GrainOperator::lastIncrements(ImpulseSet& added) const
 
 void GrainOperator::addImpulse(const Contact& c, const Vector3& impulse)
 {
-	const auto& bodies = problem->bodies;
-	if (movable[c.body1]) {
-		velocity(stateOf(c.body1)) -= bodies[c.body1].inverseMass.cwiseProduct(impulse);
-		angularVelocity(stateOf(c.body1)) -= bodies[c.body1].inverseInertia * c.arm1.cross(impulse);
-	}
-	if (movable[c.body2]) {
-		velocity(stateOf(c.body2)) += bodies[c.body2].inverseMass.cwiseProduct(impulse);
-		angularVelocity(stateOf(c.body2)) += bodies[c.body2].inverseInertia * c.arm2.cross(impulse);
-	}
+	const auto act = [this](std::int32_t on, const Vector3& arm, const Vector3& its) {
+		if (movable[on]) push(velocity(stateOf(on)), angularVelocity(stateOf(on)), problem->bodies[on], arm, its);
+	};
+	act(c.body1, c.arm1, -impulse);
+	act(c.body2, c.arm2, impulse);
 }
 
 /// Sum of the speeds that the relative velocity is made of, as sums of components: a bound, without square roots.

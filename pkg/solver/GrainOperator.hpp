@@ -43,11 +43,13 @@ public:
 	void keep();
 	void exchangeKept();
 
-	/// The contacts around the largest changes of the last sweep. False where these are spread too far or at a body with more loaded contacts than
-	/// there is room for, and for what a spot cannot hold: a mean field links all contacts, rolling friction is not part of it.
-	bool takeHotSpot(HotSpot& spot) const;
+	/// The contacts around the largest changes of the last sweep. False where these are spread too far, and where there is a mean field or rolling
+	/// friction: with them nothing was gained (doc/grains.rst).
+	bool chooseHotSpot(HotSpot& spot) const;
+	/// One of its parts, with the present impulses; the bodies are as they would be without them. @return  sum of r^T W r [J]
+	double takePart(HotSpot& spot, std::size_t part, GrainProblem& taken) const;
 	/// The impulses of its problem in the place of those taken since the last sweep.
-	void putHotSpot(const HotSpot& spot);
+	void putPart(const HotSpot& spot, std::size_t part, const GrainProblem& solved);
 	double impulse2() const { return lastNorms.impulse2; } ///< of the last sweep [J]
 
 	/// Approach at the point of the last certificate() over the largest without any impulse.
@@ -229,10 +231,21 @@ private:
 	void forgetLayout();
 	void putSleeper(std::int32_t id);
 	void letIdleSleep();
-	double rankChanges(HotSpot& spot, std::size_t room) const;
-	template <class Pack> static std::int32_t rankOf(const HotSpot& spot, const Pack& pack, int lane);
-	std::int32_t ranksWithin(HotSpot& spot, std::size_t room, double total) const;
-	void fillHotSpot(HotSpot& spot, std::int32_t ranks) const;
+	double largestChanges(HotSpot& spot, std::size_t most) const;
+	void contactsNear(HotSpot& spot) const;
+	double growHotSpot(HotSpot& spot, std::size_t most, double enough) const;
+	static void divideHotSpot(HotSpot& spot);
+	/// visit(pack, lane) of the contact.
+	template <class Visit> auto atOrigin(HotSpot::Origin of, const Visit& visit) const
+	{
+		const std::int32_t at = of.place / packLanes, lane = of.place % packLanes;
+		return of.ball ? visit(packs[at], lane) : visit(generals[at], lane);
+	}
+	template <class Visit> auto atOrigin(HotSpot::Origin of, const Visit& visit)
+	{
+		const std::int32_t at = of.place / packLanes, lane = of.place % packLanes;
+		return of.ball ? visit(packs[at], lane) : visit(generals[at], lane);
+	}
 	HotSpot::Origin originOf(const BallPack& pack, int lane) const;
 	HotSpot::Origin originOf(const GeneralPack& pack, int lane) const;
 	void extrapolate(Extrapolation by, std::size_t firstSeat, std::size_t lastSeat);

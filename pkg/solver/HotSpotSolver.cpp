@@ -25,76 +25,27 @@ void HotSpotSolver::start()
 {
 	spot.room = HotSpot::mostContacts;
 	spot.bodyOf.clear(); // whichever way the last solve was left
-	bodyOf.clear();
 	newtonSpent = 0;
 }
 
 HotSpotSolver::Outcome HotSpotSolver::settle(GrainOperator& op, const Terms& terms, Crew& crew)
 {
 	Outcome outcome;
-	if (!op.takeHotSpot(spot)) return outcome;
-	divide();
+	if (!op.chooseHotSpot(spot)) return outcome;
 	bool all = true;
-	for (int k = 0; k < parts; ++k) {
-		take(members[k]);
-		double impulse2 = 0;
-		for (const std::int32_t i : members[k]) impulse2 += spot.impulse2[i];
+	for (std::size_t k = 0; k < spot.parts; ++k) { // each with what those before have changed around it
+		const double impulse2 = op.takePart(spot, k, part);
 		const double own = impulse2 > 0 ? ofTolerance * terms.tolerance * std::sqrt(op.impulse2() / impulse2) : ofTolerance;
 		if (!solve(std::min(own, ofTolerance), terms, crew, outcome)) {
 			all = false;
 			continue;
 		}
-		for (std::size_t i = 0; i < members[k].size(); ++i) spot.problem.contacts[members[k][i]].impulse = part.contacts[i].impulse;
+		op.putPart(spot, k, part);
 		outcome.settled = true;
 	}
 	// A smaller one where it was too hard.
 	spot.room = all ? std::min(2 * spot.room, HotSpot::mostContacts) : std::max(spot.room / 2, HotSpot::fewestContacts);
-	if (outcome.settled) op.putHotSpot(spot);
 	return outcome;
-}
-
-/// Into parts that share no body that can move.
-void HotSpotSolver::divide()
-{
-	const auto& bodies = spot.problem.bodies;
-	groups.reset(bodies.size());
-	const auto moves = [&](std::int32_t body) { return bodies[body].moves(); };
-	for (const Contact& c : spot.problem.contacts)
-		if (moves(c.body1) && moves(c.body2)) groups.join(c.body1, c.body2);
-	parts = 0;
-	for (std::size_t i = 0; i < spot.problem.contacts.size(); ++i) {
-		const Contact& c = spot.problem.contacts[i];
-		std::int32_t& number = groups.of(moves(c.body1) ? c.body1 : c.body2).number;
-		if (number < 0) {
-			number = parts++;
-			if (parts > int(members.size())) members.emplace_back();
-			members[number].clear();
-		}
-		members[number].push_back(std::int32_t(i));
-	}
-}
-
-void HotSpotSolver::take(const std::vector<std::int32_t>& contacts)
-{
-	part.bodies.clear();
-	part.contacts.clear();
-	bodiesOfPart.clear();
-	bodyOf.resize(spot.problem.bodies.size(), -1);
-	const auto bodyAt = [&](std::int32_t of) {
-		if (bodyOf[of] < 0) {
-			bodyOf[of] = std::int32_t(part.bodies.size());
-			bodiesOfPart.push_back(of);
-			part.bodies.push_back(spot.problem.bodies[of]);
-		}
-		return bodyOf[of];
-	};
-	for (const std::int32_t i : contacts) {
-		Contact c = spot.problem.contacts[i];
-		c.body1 = bodyAt(c.body1);
-		c.body2 = bodyAt(c.body2);
-		part.contacts.push_back(c);
-	}
-	for (const std::int32_t body : bodiesOfPart) bodyOf[body] = -1;
 }
 
 /// By sweeps, or else by Newton steps. Impulses that leave contacts closing are not taken: where there is no solution, any relative tolerance is met

@@ -3,7 +3,6 @@
 
 #include "GrainOperator.hpp"
 #include "HotSpot.hpp"
-#include "JoinedGroups.hpp"
 
 namespace contactdynamics {
 
@@ -27,24 +26,12 @@ public:
 	Outcome settle(GrainOperator& op, const Terms& terms, Crew& crew);
 
 private:
-	struct Group { // contacts that are linked by bodies
-		std::int32_t number = -1;
-		void add(const Group&) {}
-	};
-
 	HotSpot spot;
-	JoinedGroups<Group> groups;
-	std::vector<std::vector<std::int32_t>> members; // of each group
-	std::vector<std::int32_t> bodyOf;				// of the spot in the part; -1 for all between two parts
 	GrainProblem part;
-	std::vector<std::int32_t> bodiesOfPart; // in the spot
 	GrainOperator operatorOfPart;
 	std::vector<Matrix3> frames;
-	int parts = 0;
 	double newtonSpent = 0; // in this solve, in sweeps
 
-	void divide();
-	void take(const std::vector<std::int32_t>& contacts);
 	bool solve(double tolerance, const Terms& terms, Crew& crew, Outcome& outcome);
 	bool solveByNewton(double tolerance, const Terms& terms, Outcome& outcome);
 };

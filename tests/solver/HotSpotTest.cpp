@@ -40,6 +40,11 @@ SolverOptions fine(Acceleration acceleration)
 	return options;
 }
 
+std::size_t loadedContacts(const GrainProblem& part)
+{
+	return std::size_t(std::count_if(part.contacts.begin(), part.contacts.end(), [](const Contact& c) { return !c.impulse.isZero(0); }));
+}
+
 } // namespace
 
 TEST(HotSpot, SweepsGoRoundForEver)
@@ -77,9 +82,13 @@ TEST(HotSpot, VelocitiesGoWithTheImpulsesPutBack)
 		op.start(problem, true, crew);
 		for (int i = 0; i < 20; ++i) op.sweep({0.3, 0.2});
 		HotSpot spot;
-		ASSERT_TRUE(op.takeHotSpot(spot));
-		for (Contact& c : spot.problem.contacts) c.impulse *= 0.5;
-		op.putHotSpot(spot);
+		ASSERT_TRUE(op.chooseHotSpot(spot));
+		GrainProblem part;
+		for (std::size_t k = 0; k < spot.parts; ++k) {
+			op.takePart(spot, k, part);
+			for (Contact& c : part.contacts) c.impulse *= 0.5;
+			op.putPart(spot, k, part);
+		}
 		for (int round = 0; round < 2; ++round) {
 			SolveReport report;
 			op.finish(report); // velocities as the sweeps and the spot have left them
@@ -100,8 +109,8 @@ TEST(HotSpot, VelocitiesGoWithTheImpulsesPutBack)
 	}
 }
 
-/// A spot taken out stands for itself: its bodies with its impulses have the velocities that they have in the collection.
-TEST(HotSpot, IsAProblemOfItsOwn)
+/// A part taken out stands for itself: its bodies with its impulses have the velocities that they have in the collection.
+TEST(HotSpot, PartsAreProblemsOfTheirOwn)
 {
 	for (const bool general : {false, true}) {
 		GrainProblem problem = scenes::heap(6, 3, 0.5, true, general);
@@ -110,25 +119,78 @@ TEST(HotSpot, IsAProblemOfItsOwn)
 		op.start(problem, true, crew);
 		for (int i = 0; i < 20; ++i) op.sweep({});
 		HotSpot spot;
-		ASSERT_TRUE(op.takeHotSpot(spot));
-		const GrainProblem part = spot.problem;
-		const auto own = independent::velocities(part, part);
+		ASSERT_TRUE(op.chooseHotSpot(spot));
+		std::vector<GrainProblem> parts(spot.parts);
+		for (std::size_t k = 0; k < spot.parts; ++k) op.takePart(spot, k, parts[k]);
 		SolveReport report;
 		op.certificate();
 		op.finish(report);
-		for (std::size_t i = 0; i < part.bodies.size(); ++i) {
-			const auto same = std::find_if(problem.bodies.begin(), problem.bodies.end(), [&](const Body& b) {
-				return b.centre == part.bodies[i].centre && b.inverseMass == part.bodies[i].inverseMass;
-			});
-			ASSERT_NE(same, problem.bodies.end());
-			// Speeds below ten, in some ten sums on either side: 1e2 eps of that; lever arms over radii of gyration below ten.
-			EXPECT_LE((own[i].head<3>() - same->velocity).norm(), 1e3 * std::numeric_limits<double>::epsilon()) << i;
-			EXPECT_LE((own[i].tail<3>() - same->angularVelocity).norm(), 1e4 * std::numeric_limits<double>::epsilon()) << i;
+		for (const GrainProblem& part : parts) {
+			const auto own = independent::velocities(part, part);
+			for (std::size_t i = 0; i < part.bodies.size(); ++i) {
+				const auto same = std::find_if(problem.bodies.begin(), problem.bodies.end(), [&](const Body& b) {
+					return b.centre == part.bodies[i].centre && b.inverseMass == part.bodies[i].inverseMass;
+				});
+				ASSERT_NE(same, problem.bodies.end());
+				// Speeds below ten, in some ten sums on either side: 1e2 eps of that; lever arms over radii of gyration below ten.
+				EXPECT_LE((own[i].head<3>() - same->velocity).norm(), 1e3 * std::numeric_limits<double>::epsilon()) << i;
+				EXPECT_LE((own[i].tail<3>() - same->angularVelocity).norm(), 1e4 * std::numeric_limits<double>::epsilon()) << i;
+			}
 		}
 	}
 }
 
-TEST(HotSpot, LeavesAloneWhatItCannotHold)
+TEST(HotSpot, PartsHaveNoMoreContactsThanThereIsRoomFor)
+{
+	GrainProblem problem = scenes::heap(16, 3, 0.5, true);
+	Crew crew(1);
+	GrainOperator op;
+	op.start(problem, true, crew);
+	for (int i = 0; i < 20; ++i) op.sweep({});
+	HotSpot spot;
+	for (const std::size_t room : {HotSpot::mostContacts, HotSpot::fewestContacts}) {
+		spot.room = room;
+		ASSERT_TRUE(op.chooseHotSpot(spot));
+		EXPECT_GT(spot.parts, 1U);
+		std::size_t all = 0, most = 0;
+		GrainProblem part;
+		for (std::size_t k = 0; k < spot.parts; ++k) {
+			op.takePart(spot, k, part);
+			all += loadedContacts(part);
+			most = std::max(most, loadedContacts(part));
+		}
+		EXPECT_LE(most, room);
+		EXPECT_GE(most, room / 2); // another body with its ten contacts or so would not have fitted
+		EXPECT_LE(all, room * (op.awakeContacts() / HotSpot::contactsPerSpot));
+	}
+}
+
+/// A lid on many balls has more contacts than there is room for: those that change most are solved all the same, the lid in the part but not with all
+/// its contacts.
+TEST(HotSpot, BodiesWithTooManyContactsHoldNothingUp)
+{
+	constexpr int balls = 2 * int(HotSpot::mostContacts);
+	GrainProblem problem;
+	problem.bodies = {scenes::wall(), scenes::ball(10, 1, {0, 0, -1})};
+	for (int i = 0; i < balls; ++i) {
+		problem.bodies.push_back(scenes::ball(1, 1, {0.1, 0, -1}));
+		problem.contacts.push_back(scenes::touch(0, 0, i + 2, 1, Vector3::UnitZ(), 0.5));
+		problem.contacts.push_back(scenes::touch(i + 2, 1, 1, 0, Vector3::UnitZ(), 0.5));
+	}
+	Crew crew(1);
+	GrainOperator op;
+	op.start(problem, true, crew);
+	for (int i = 0; i < 3; ++i) op.sweep({});
+	HotSpot spot;
+	ASSERT_TRUE(op.chooseHotSpot(spot));
+	ASSERT_EQ(spot.parts, 1U); // they share the lid
+	GrainProblem part;
+	op.takePart(spot, 0, part);
+	EXPECT_LE(loadedContacts(part), HotSpot::mostContacts);
+	EXPECT_EQ(part.bodies.size(), 2 + part.contacts.size() / 2); // of each ball both contacts
+}
+
+TEST(HotSpot, LeavesAloneMeanFieldsAndRollingFriction)
 {
 	const auto isTaken = [](GrainProblem problem) {
 		Crew crew(1);
@@ -136,7 +198,7 @@ TEST(HotSpot, LeavesAloneWhatItCannotHold)
 		op.start(problem, true, crew);
 		op.sweep({});
 		HotSpot spot;
-		return op.takeHotSpot(spot);
+		return op.chooseHotSpot(spot);
 	};
 	GrainProblem problem = squashed();
 	EXPECT_TRUE(isTaken(problem));
