@@ -16,7 +16,7 @@ inline Eigen::Map<Eigen::Vector3d> angularVelocity(BodyState& body) { return Eig
 
 /// Adds to the velocities what an impulse with this arm does to the body.
 template <class Linear, class Angular>
-void push(Linear&& velocity, Angular&& angularVelocity, const Body& body, const Vector3& arm, const Vector3& impulse)
+void applyImpulse(Linear&& velocity, Angular&& angularVelocity, const Body& body, const Vector3& arm, const Vector3& impulse)
 {
 	velocity += body.inverseMass.cwiseProduct(impulse);
 	angularVelocity += body.inverseInertia * arm.cross(impulse);

@@ -57,7 +57,7 @@ void GrainOperator::lastIncrements(ImpulseSet& added) const
 void GrainOperator::addImpulse(const Contact& c, const Vector3& impulse)
 {
 	const auto act = [this](std::int32_t on, const Vector3& arm, const Vector3& its) {
-		if (movable[on]) push(velocity(stateOf(on)), angularVelocity(stateOf(on)), problem->bodies[on], arm, its);
+		if (movable[on]) applyImpulse(velocity(stateOf(on)), angularVelocity(stateOf(on)), problem->bodies[on], arm, its);
 	};
 	act(c.body1, c.arm1, -impulse);
 	act(c.body2, c.arm2, impulse);

@@ -5,7 +5,8 @@
 #include "BodyView.hpp"
 #include "CoulombCone.hpp"
 
-#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
 
 namespace contactdynamics {
 
@@ -38,8 +39,9 @@ Vector3 inAxes(const GeneralPack& p, int k, const Vector3& r)
 
 bool GrainOperator::chooseHotSpot(HotSpot& spot) const
 {
-	if (hasField() || !rollingContacts.empty()) return false;
+	spot.parts = 0;
 	spot.awake = awake;
+	if (hasField() || !rollingContacts.empty()) return false;
 	const std::size_t most = spot.room * std::max<std::size_t>(1, awake / HotSpot::contactsPerSpot);
 	const double total = largestChanges(spot, most);
 	contactsNear(spot);
@@ -57,14 +59,14 @@ double GrainOperator::largestChanges(HotSpot& spot, std::size_t most) const
 	const auto collect = [&](const auto& pack, int lane) {
 		const double size2 = inWNorm2(pack, pack.increment, lane);
 		total += size2;
-		if (size2 > 0) spot.changes.push_back({size2, originOf(pack, lane)});
+		if (size2 > 0) spot.changes.push_back({size2, placeOf(pack, lane)});
 	};
 	eachContact(packs, collect);
 	eachContact(generals, collect);
 	const auto end = spot.changes.begin() + std::ptrdiff_t(std::min(spot.changes.size(), most));
 	const auto isLarger = [](const HotSpot::Change& a, const HotSpot::Change& b) {
 		if (a.size2 != b.size2) return a.size2 > b.size2;
-		return a.of.ball != b.of.ball ? a.of.ball : a.of.place < b.of.place;
+		return a.of.ball != b.of.ball ? a.of.ball : a.of.number < b.of.number;
 	};
 	std::nth_element(spot.changes.begin(), end, spot.changes.end(), isLarger);
 	std::sort(spot.changes.begin(), end, isLarger);
@@ -75,42 +77,44 @@ double GrainOperator::largestChanges(HotSpot& spot, std::size_t most) const
 /// Numbers the bodies with large changes, the candidates, and those that they touch, and notes the contacts.
 void GrainOperator::contactsNear(HotSpot& spot) const
 {
-	spot.bodies = 0;
+	std::int32_t bodies = 0;
 	spot.numberOf.assign(state.size(), -1);
 	const auto number = [&](std::int32_t index) {
 		if (index < 0) return -1;
-		if (spot.numberOf[index] < 0) spot.numberOf[index] = std::int32_t(spot.bodies++);
+		if (spot.numberOf[index] < 0) spot.numberOf[index] = bodies++;
 		return spot.numberOf[index];
 	};
 	for (const HotSpot::Change& change : spot.changes)
-		atOrigin(change.of, [&](const auto& pack, int lane) {
+		at(*this, change.of, [&](const auto& pack, int lane) {
 			number(pack.body1[lane]);
 			number(pack.body2[lane]);
 		});
-	spot.candidates = spot.bodies;
-	if (spot.candidates > spot.around.size()) spot.around.resize(spot.candidates);
-	for (std::size_t i = 0; i < spot.candidates; ++i) spot.around[i].clear();
+	const std::int32_t candidates = bodies;
+	spot.candidates.assign(candidates, HotSpot::Candidate::untried);
+	spot.firstNear.assign(std::size_t(candidates) + 1, 0);
 	spot.near.clear();
-	const auto isCandidate = [&](std::int32_t index) {
-		return index >= 0 && spot.numberOf[index] >= 0 && std::size_t(spot.numberOf[index]) < spot.candidates;
-	};
+	const auto isCandidate = [&](std::int32_t index) { return index >= 0 && spot.numberOf[index] >= 0 && spot.numberOf[index] < candidates; };
 	const auto note = [&](const auto& pack, int lane) {
 		const std::int32_t one = pack.body1[lane], two = pack.body2[lane];
 		if (!isCandidate(one) && !isCandidate(two)) return;
-		const bool isLoaded = pack.impulse[0][lane] != 0 || pack.impulse[1][lane] != 0 || pack.impulse[2][lane] != 0;
 		for (const std::int32_t index : {one, two})
-			if (isCandidate(index)) spot.around[spot.numberOf[index]].push_back(std::int32_t(spot.near.size()));
-		spot.near.push_back({originOf(pack, lane), number(one), number(two), isLoaded, false});
+			if (isCandidate(index)) ++spot.firstNear[spot.numberOf[index]];
+		spot.near.push_back({placeOf(pack, lane), number(one), number(two), isLoaded(pack, lane), false});
 	};
 	eachContact(packs, note);
 	eachContact(generals, note);
-	spot.isIn.assign(spot.candidates, 0);
-	spot.groups.reset(spot.bodies);
+	spot.groups.reset(bodies);
+
+	std::partial_sum(spot.firstNear.begin(), spot.firstNear.end(), spot.firstNear.begin()); // the ends, counted down to the starts
+	spot.nearOf.resize(spot.firstNear.back());
+	for (std::size_t i = spot.near.size(); i-- > 0;)
+		for (const std::int32_t body : {spot.near[i].body1, spot.near[i].body2})
+			if (body >= 0 && body < candidates) spot.nearOf[--spot.firstNear[body]] = std::int32_t(i);
 }
 
 /// Takes in the bodies with the largest changes, one by one, each with all its contacts, as far as there is room. Contacts that share a body that can
 /// move are of one part.
-/// @return how much of the changes lies at contacts of bodies taken in [J]
+/// @return how much of the changes that were looked at lies at contacts of bodies taken in [J]
 double GrainOperator::growHotSpot(HotSpot& spot, std::size_t most, double enough) const
 {
 	double covered = 0;
@@ -118,26 +122,28 @@ double GrainOperator::growHotSpot(HotSpot& spot, std::size_t most, double enough
 	const auto takeIn = [&](std::int32_t index) {
 		if (index < 0) return false;
 		const std::int32_t body = spot.numberOf[index];
-		if (spot.isIn[body]) return true;
-		std::size_t fresh = 0, size = 0;
-		spot.linked.clear();
-		for (const std::int32_t i : spot.around[body]) {
-			const HotSpot::Near& contact = spot.near[i];
+		HotSpot::Candidate& candidate = spot.candidates[body];
+		if (candidate != HotSpot::Candidate::untried) return candidate == HotSpot::Candidate::in;
+		candidate = HotSpot::Candidate::refused; // for good: neither sum below falls when others are taken in
+		const auto first = spot.nearOf.begin() + std::ptrdiff_t(spot.firstNear[body]),
+				   last = spot.nearOf.begin() + std::ptrdiff_t(spot.firstNear[body + 1]);
+		std::size_t fresh = 0, linked = 0;
+		for (auto i = first; i != last; ++i) {
+			const HotSpot::Near& contact = spot.near[*i];
 			if (contact.loaded && !contact.chosen) ++fresh;
 			for (const std::int32_t side : {contact.body1, contact.body2}) {
 				if (side < 0) continue;
 				HotSpot::Group& group = spot.groups.of(side);
-				if (std::find(spot.linked.begin(), spot.linked.end(), &group) != spot.linked.end()) continue;
-				spot.linked.push_back(&group);
-				size += group.loaded;
+				if (group.seenBy != body) linked += group.loaded;
+				group.seenBy = body;
 			}
+			if (linked + fresh > spot.room || all + fresh > most) return false;
 		}
-		if (size + fresh > spot.room || all + fresh > most) return false;
-		spot.isIn[body] = 1;
+		candidate = HotSpot::Candidate::in;
 		all += fresh;
 		spot.groups.of(body).loaded += fresh;
-		for (const std::int32_t i : spot.around[body]) {
-			HotSpot::Near& contact = spot.near[i];
+		for (auto i = first; i != last; ++i) {
+			HotSpot::Near& contact = spot.near[*i];
 			contact.chosen = true;
 			if (contact.body1 >= 0 && contact.body2 >= 0) spot.groups.join(contact.body1, contact.body2);
 		}
@@ -146,27 +152,35 @@ double GrainOperator::growHotSpot(HotSpot& spot, std::size_t most, double enough
 	for (const HotSpot::Change& change : spot.changes) {
 		if (covered >= enough) break;
 		const auto takeBoth = [&](const auto& pack, int lane) {
-			const bool first = takeIn(pack.body1[lane]), second = takeIn(pack.body2[lane]);
-			return first || second;
+			const bool one = takeIn(pack.body1[lane]), two = takeIn(pack.body2[lane]);
+			return one || two;
 		};
-		if (atOrigin(change.of, takeBoth)) covered += change.size2;
+		if (at(*this, change.of, takeBoth)) covered += change.size2;
 	}
 	return covered;
 }
 
 void GrainOperator::divideHotSpot(HotSpot& spot)
 {
-	spot.parts = 0;
-	for (const HotSpot::Near& contact : spot.near) {
+	spot.partOf.assign(spot.near.size(), -1);
+	spot.firstOfPart.clear();
+	for (std::size_t i = 0; i < spot.near.size(); ++i) {
+		const HotSpot::Near& contact = spot.near[i];
 		if (!contact.chosen) continue;
 		std::int32_t& part = spot.groups.of(contact.body1 >= 0 ? contact.body1 : contact.body2).part;
 		if (part < 0) {
-			part = std::int32_t(spot.parts++);
-			if (spot.parts > spot.contacts.size()) spot.contacts.emplace_back();
-			spot.contacts[part].clear();
+			part = std::int32_t(spot.firstOfPart.size());
+			spot.firstOfPart.push_back(0);
 		}
-		spot.contacts[part].push_back(contact.of);
+		spot.partOf[i] = part;
+		++spot.firstOfPart[part];
 	}
+	spot.parts = spot.firstOfPart.size();
+	spot.firstOfPart.push_back(0);
+	std::partial_sum(spot.firstOfPart.begin(), spot.firstOfPart.end(), spot.firstOfPart.begin());
+	spot.contacts.resize(spot.firstOfPart.back());
+	for (std::size_t i = spot.near.size(); i-- > 0;)
+		if (const std::int32_t part = spot.partOf[i]; part >= 0) spot.contacts[--spot.firstOfPart[part]] = spot.near[i].of;
 }
 
 double GrainOperator::takePart(HotSpot& spot, std::size_t part, GrainProblem& taken) const
@@ -187,16 +201,16 @@ double GrainOperator::takePart(HotSpot& spot, std::size_t part, GrainProblem& ta
 		return its;
 	};
 	double impulse2 = 0;
-	for (const HotSpot::Origin& of : spot.contacts[part])
-		atOrigin(of, [&](const auto& pack, int lane) {
+	for (std::size_t i = spot.firstOfPart[part]; i < spot.firstOfPart[part + 1]; ++i)
+		at(*this, spot.contacts[i], [&](const auto& pack, int lane) {
 			impulse2 += inWNorm2(pack, pack.impulse, lane);
 			Contact c = problem->contacts[pack.id[lane]];
 			c.body1 = bodyAt(c.body1);
 			c.body2 = bodyAt(c.body2);
 			c.impulse = insideCone(inGlobalAxes(pack, pack.impulse, lane), c.normal, c.friction);
 			Body &body1 = taken.bodies[c.body1], &body2 = taken.bodies[c.body2];
-			if (pack.body1[lane] >= 0) push(body1.velocity, body1.angularVelocity, body1, c.arm1, c.impulse);
-			if (pack.body2[lane] >= 0) push(body2.velocity, body2.angularVelocity, body2, c.arm2, -c.impulse);
+			if (pack.body1[lane] >= 0) applyImpulse(body1.velocity, body1.angularVelocity, body1, c.arm1, c.impulse);
+			if (pack.body2[lane] >= 0) applyImpulse(body2.velocity, body2.angularVelocity, body2, c.arm2, -c.impulse);
 			taken.contacts.push_back(c);
 		});
 	for (const std::int32_t seat : spot.seats) spot.bodyOf[seat] = -1;
@@ -206,8 +220,8 @@ double GrainOperator::takePart(HotSpot& spot, std::size_t part, GrainProblem& ta
 void GrainOperator::putPart(const HotSpot& spot, std::size_t part, const GrainProblem& solved)
 {
 	auto contact = solved.contacts.begin();
-	for (const HotSpot::Origin& of : spot.contacts[part])
-		atOrigin(of, [&](auto& pack, int lane) {
+	for (std::size_t i = spot.firstOfPart[part]; i < spot.firstOfPart[part + 1]; ++i)
+		at(*this, spot.contacts[i], [&](auto& pack, int lane) {
 			const Vector3& impulse = (contact++)->impulse;
 			const Vector3 before = inGlobalAxes(pack, pack.impulse, lane), change = impulse - before;
 			const Vector3 in = inAxes(pack, lane, impulse), changeIn = inAxes(pack, lane, change);
@@ -219,11 +233,11 @@ void GrainOperator::putPart(const HotSpot& spot, std::size_t part, const GrainPr
 		});
 }
 
-HotSpot::Origin GrainOperator::originOf(const BallPack& pack, int lane) const
+HotSpot::PackLane GrainOperator::placeOf(const BallPack& pack, int lane) const
 {
 	return {std::int32_t(&pack - packs.data()) * packLanes + lane, true};
 }
-HotSpot::Origin GrainOperator::originOf(const GeneralPack& pack, int lane) const
+HotSpot::PackLane GrainOperator::placeOf(const GeneralPack& pack, int lane) const
 {
 	return {std::int32_t(&pack - generals.data()) * packLanes + lane, false};
 }

@@ -44,7 +44,7 @@ public:
 	void exchangeKept();
 
 	/// The contacts around the largest changes of the last sweep. False where these are spread too far, and where there is a mean field or rolling
-	/// friction: with them nothing was gained (doc/grains.rst).
+	/// friction: with them no time was gained (doc/grains.rst).
 	bool chooseHotSpot(HotSpot& spot) const;
 	/// One of its parts, with the present impulses; the bodies are as they would be without them. @return  sum of r^T W r [J]
 	double takePart(HotSpot& spot, std::size_t part, GrainProblem& taken) const;
@@ -235,19 +235,18 @@ private:
 	void contactsNear(HotSpot& spot) const;
 	double growHotSpot(HotSpot& spot, std::size_t most, double enough) const;
 	static void divideHotSpot(HotSpot& spot);
-	/// visit(pack, lane) of the contact.
-	template <class Visit> auto atOrigin(HotSpot::Origin of, const Visit& visit) const
+	/// visit(pack, lane) of one contact of an operator, const or not.
+	template <class Self, class Visit> static auto at(Self& self, HotSpot::PackLane of, const Visit& visit)
 	{
-		const std::int32_t at = of.place / packLanes, lane = of.place % packLanes;
-		return of.ball ? visit(packs[at], lane) : visit(generals[at], lane);
+		const std::int32_t pack = of.number / packLanes, lane = of.number % packLanes;
+		return of.ball ? visit(self.packs[pack], lane) : visit(self.generals[pack], lane);
 	}
-	template <class Visit> auto atOrigin(HotSpot::Origin of, const Visit& visit)
+	template <class Pack> static bool isLoaded(const Pack& pack, int lane)
 	{
-		const std::int32_t at = of.place / packLanes, lane = of.place % packLanes;
-		return of.ball ? visit(packs[at], lane) : visit(generals[at], lane);
+		return pack.impulse[0][lane] != 0 || pack.impulse[1][lane] != 0 || pack.impulse[2][lane] != 0;
 	}
-	HotSpot::Origin originOf(const BallPack& pack, int lane) const;
-	HotSpot::Origin originOf(const GeneralPack& pack, int lane) const;
+	HotSpot::PackLane placeOf(const BallPack& pack, int lane) const;
+	HotSpot::PackLane placeOf(const GeneralPack& pack, int lane) const;
 	void extrapolate(Extrapolation by, std::size_t firstSeat, std::size_t lastSeat);
 	bool hasField() const { return problem->meanField.has_value(); }
 	void startField();

@@ -19,40 +19,42 @@ struct HotSpot {
 	/// Of the changes, squared: at least so much has to lie in the spot, and no more than so much is asked for.
 	static constexpr double leastShare = 0.3, enough = 0.9;
 
-	struct Origin {
-		std::int32_t place; // pack and lane
+	struct PackLane {		 // where a contact stands
+		std::int32_t number; // of the pack, times packLanes, plus the lane
 		bool ball;
 	};
 
 	std::size_t room = mostContacts; ///< loaded contacts of a part at most
 	std::size_t awake = 0;			 ///< contacts that a sweep of the collection visits
 	std::size_t parts = 0;
-	std::vector<std::vector<Origin>> contacts; ///< of each part, in the order of a sweep; lists beyond the parts are room of before
+	std::vector<PackLane> contacts;		  ///< part by part, in each first the balls, all in the order of their packs
+	std::vector<std::size_t> firstOfPart; ///< and one more, where the last one ends
 
 	// For GrainOperator alone.
 	struct Change {
 		double size2; // dr^T W dr [J]
-		Origin of;
+		PackLane of;
 	};
 	struct Near { // a contact that may become part of the spot
-		Origin of;
+		PackLane of;
 		std::int32_t body1, body2; // their numbers, -1: cannot move
 		bool loaded, chosen;
 	};
-	struct Group { // contacts linked by bodies
-		std::size_t loaded = 0;
-		std::int32_t part = -1;
+	enum class Candidate : std::uint8_t { untried, in, refused }; // a body with a large change; in: with all its contacts
+	struct Group {												  // bodies and the chosen contacts that link them
+		std::size_t loaded = 0;									  // contacts
+		std::int32_t part = -1, seenBy = -1;					  // body that asked last
 		void add(const Group& other) { loaded += other.loaded; }
 	};
-	std::vector<Change> changes;				   // the largest first
-	std::vector<std::int32_t> numberOf;			   // of a body, by seat, -1: none; the candidates, that have one of these changes, come first
-	std::size_t candidates = 0, bodies = 0;		   // so many
-	std::vector<Near> near;						   // contacts of candidates
-	std::vector<std::vector<std::int32_t>> around; // of each candidate those contacts
-	std::vector<std::uint8_t> isIn;				   // the candidate, with all its contacts
-	std::vector<Group*> linked;					   // by one more body
-	JoinedGroups<Group> groups;					   // of numbered bodies
-	std::vector<std::int32_t> bodyOf, seats;	   // of the part taken last: by seat, -1 for all between two parts; of each of its bodies
+	std::vector<Change> changes;			 // the largest first
+	std::vector<std::int32_t> numberOf;		 // of a body, by seat, -1: none; candidates come first
+	std::vector<Candidate> candidates;		 // by number
+	std::vector<Near> near;					 // contacts of candidates
+	std::vector<std::size_t> firstNear;		 // of each candidate, in nearOf
+	std::vector<std::int32_t> nearOf;		 // candidate by candidate its contacts
+	JoinedGroups<Group> groups;				 // of numbered bodies
+	std::vector<std::int32_t> partOf;		 // of each near contact, -1: not chosen
+	std::vector<std::int32_t> bodyOf, seats; // of the part taken last: by seat, -1 for all between two parts; of each of its bodies
 };
 
 } // namespace contactdynamics

@@ -7,6 +7,9 @@
 #include "SignoriniCoulombLoop.hpp"
 #include "Squeeze.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace contactdynamics {
 
 namespace {
@@ -33,7 +36,7 @@ HotSpotSolver::Outcome HotSpotSolver::settle(GrainOperator& op, const Terms& ter
 	Outcome outcome;
 	if (!op.chooseHotSpot(spot)) return outcome;
 	bool all = true;
-	for (std::size_t k = 0; k < spot.parts; ++k) { // each with what those before have changed around it
+	for (std::size_t k = 0; k < spot.parts; ++k) {
 		const double impulse2 = op.takePart(spot, k, part);
 		const double own = impulse2 > 0 ? ofTolerance * terms.tolerance * std::sqrt(op.impulse2() / impulse2) : ofTolerance;
 		if (!solve(std::min(own, ofTolerance), terms, crew, outcome)) {

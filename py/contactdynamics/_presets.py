@@ -14,7 +14,7 @@ from . import _plugin
 def engines(
     gravity: Sequence[float] = (0, 0, -9.81),
     tolerance: float = 1e-4,
-    maxIterations: int = 1000,
+    maxIterations: int = 3000,
     contactLaw: str = "quasiInelasticShock",
     timeStepper: bool | Any = False,
     collider: Any = None,

@@ -27,7 +27,7 @@ def _pair(number: float) -> MatchMaker:
 SETTINGS: dict[str, dict[str, tuple]] = {
     "ContactDynamicsEngine": {
         "tolerance": (1e-4, 3e-7),
-        "maxIterations": (1000, 321),
+        "maxIterations": (3000, 321),
         "contactLaw": ("quasiInelasticShock", "velocitySignorini"),
         "warmStart": (True, False),
         "onNonConvergence": ("warn", "raise"),
