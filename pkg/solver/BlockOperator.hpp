@@ -119,7 +119,7 @@ public:
 	{
 		double left = 0;
 		for (std::size_t i = 0; i < lanes.size(); ++i) left = std::max(left, -velocityAt(i)[0]);
-		return left > 0 ? left / largestFreeApproach() : 0;
+		return left > 0 ? left / largestFreeApproach<D>(problem) : 0;
 	}
 
 	/// Whether a contact closes with a tenth of the largest approach without impulses though its own is a thousand times what stops that alone. Where
@@ -127,7 +127,7 @@ public:
 	bool isLost()
 	{
 		prepare();
-		const double largest = largestFreeApproach();
+		const double largest = largestFreeApproach<D>(problem);
 		for (std::size_t i = 0; i < lanes.size(); ++i) {
 			if (!(lanes[i].lane[0] > 0 && visited[i].W(0, 0) * lanes[i].lane[0] >= 1000 * largest)) continue;
 			if (const double approach = -velocityAt(i)[0]; approach > 0 && approach >= 0.1 * largest) return true;
@@ -264,12 +264,6 @@ private:
 		residual.add(impulse(i), velocityAt(i), at(problem.q, i), problem.friction[i], measure == Measure::naturalMap ? visited[i].W : none);
 	}
 
-	double largestFreeApproach() const // without any impulse
-	{
-		double largest = 0;
-		for (std::size_t i = 0; i < lanes.size(); ++i) largest = std::max(largest, -problem.q[D * i]);
-		return largest;
-	}
 	void prepare()
 	{
 		if (!visited.empty()) return;

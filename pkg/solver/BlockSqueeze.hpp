@@ -33,12 +33,10 @@ template <int D> double squeezeFactor(const BlockProblem& problem, const std::ve
 	};
 	const std::size_t count = problem.contacts();
 	const auto added = [&](std::size_t i) -> Vector { return others ? Vector(r[i] - (*others)[i]) : r[i]; };
-	double largest = 0, remains = 0; // approach
-	for (std::size_t i = 0; i < count; ++i) {
-		largest = std::max(largest, -problem.q[D * i]);
+	double remains = 0; // of the approach
+	for (std::size_t i = 0; i < count; ++i)
 		if (r[i][0] > 0) remains = std::max(remains, -u[i][0]);
-	}
-	if (!(remains > Squeeze::leastApproach * largest)) return 0;
+	if (!(remains > Squeeze::leastApproach * largestFreeApproach<D>(problem))) return 0;
 	std::vector<std::int32_t> loaded;
 	for (std::size_t i = 0; i < count; ++i)
 		if (added(i)[0] > 0) loaded.push_back(std::int32_t(i));

@@ -3,10 +3,10 @@
 #include "GrainOperator.hpp"
 
 #include "BodyView.hpp"
+#include "Buckets.hpp"
 #include "CoulombCone.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace contactdynamics {
 
@@ -91,25 +91,23 @@ void GrainOperator::contactsNear(HotSpot& spot) const
 		});
 	const std::int32_t candidates = bodies;
 	spot.candidates.assign(candidates, HotSpot::Candidate::untried);
-	spot.firstNear.assign(std::size_t(candidates) + 1, 0);
 	spot.near.clear();
 	const auto isCandidate = [&](std::int32_t index) { return index >= 0 && spot.numberOf[index] >= 0 && spot.numberOf[index] < candidates; };
 	const auto note = [&](const auto& pack, int lane) {
 		const std::int32_t one = pack.body1[lane], two = pack.body2[lane];
 		if (!isCandidate(one) && !isCandidate(two)) return;
-		for (const std::int32_t index : {one, two})
-			if (isCandidate(index)) ++spot.firstNear[spot.numberOf[index]];
-		spot.near.push_back({placeOf(pack, lane), number(one), number(two), isLoaded(pack, lane), false});
+		spot.near.push_back({placeOf(pack, lane), number(one), number(two), isNonzero(pack.impulse, lane), false});
 	};
 	eachContact(packs, note);
 	eachContact(generals, note);
 	spot.groups.reset(bodies);
 
-	std::partial_sum(spot.firstNear.begin(), spot.firstNear.end(), spot.firstNear.begin()); // the ends, counted down to the starts
-	spot.nearOf.resize(spot.firstNear.back());
-	for (std::size_t i = spot.near.size(); i-- > 0;)
-		for (const std::int32_t body : {spot.near[i].body1, spot.near[i].body2})
-			if (body >= 0 && body < candidates) spot.nearOf[--spot.firstNear[body]] = std::int32_t(i);
+	const auto eachOfCandidates = [&](const auto& put) {
+		for (std::size_t i = 0; i < spot.near.size(); ++i)
+			for (const std::int32_t body : {spot.near[i].body1, spot.near[i].body2})
+				if (body >= 0 && body < candidates) put(std::size_t(body), std::int32_t(i));
+	};
+	intoBuckets(std::size_t(candidates), eachOfCandidates, spot.firstNear, spot.nearOf);
 }
 
 /// Takes in the bodies with the largest changes, one by one, each with all its contacts, as far as there is room. Contacts that share a body that can
@@ -162,25 +160,16 @@ double GrainOperator::growHotSpot(HotSpot& spot, std::size_t most, double enough
 
 void GrainOperator::divideHotSpot(HotSpot& spot)
 {
-	spot.partOf.assign(spot.near.size(), -1);
-	spot.firstOfPart.clear();
-	for (std::size_t i = 0; i < spot.near.size(); ++i) {
-		const HotSpot::Near& contact = spot.near[i];
-		if (!contact.chosen) continue;
-		std::int32_t& part = spot.groups.of(contact.body1 >= 0 ? contact.body1 : contact.body2).part;
-		if (part < 0) {
-			part = std::int32_t(spot.firstOfPart.size());
-			spot.firstOfPart.push_back(0);
-		}
-		spot.partOf[i] = part;
-		++spot.firstOfPart[part];
-	}
-	spot.parts = spot.firstOfPart.size();
-	spot.firstOfPart.push_back(0);
-	std::partial_sum(spot.firstOfPart.begin(), spot.firstOfPart.end(), spot.firstOfPart.begin());
-	spot.contacts.resize(spot.firstOfPart.back());
-	for (std::size_t i = spot.near.size(); i-- > 0;)
-		if (const std::int32_t part = spot.partOf[i]; part >= 0) spot.contacts[--spot.firstOfPart[part]] = spot.near[i].of;
+	const auto partOf = [&](const HotSpot::Near& contact) -> std::int32_t& {
+		return spot.groups.of(contact.body1 >= 0 ? contact.body1 : contact.body2).part;
+	};
+	for (const HotSpot::Near& contact : spot.near)
+		if (contact.chosen && partOf(contact) < 0) partOf(contact) = std::int32_t(spot.parts++);
+	const auto eachOfParts = [&](const auto& put) {
+		for (const HotSpot::Near& contact : spot.near)
+			if (contact.chosen) put(std::size_t(partOf(contact)), contact.of);
+	};
+	intoBuckets(spot.parts, eachOfParts, spot.firstOfPart, spot.contacts);
 }
 
 double GrainOperator::takePart(HotSpot& spot, std::size_t part, GrainProblem& taken) const

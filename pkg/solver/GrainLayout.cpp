@@ -123,8 +123,8 @@ void GrainOperator::letIdleSleep()
 	const auto sort = [&](const auto& pack, int lane, double u, double Wnn) {
 		const std::int32_t id = pack.id[lane];
 		const RollingContact* rolling = rollingAt(id);
-		bool carries = rolling && rolling->carries();
-		for (int j = 0; j < 3; ++j) carries = carries || pack.impulse[j][lane] != 0 || pack.increment[j][lane] != 0 || pack.direction[j][lane] != 0;
+		const bool carries = (rolling && rolling->carries()) || isNonzero(pack.impulse, lane) || isNonzero(pack.increment, lane) ||
+							 isNonzero(pack.direction, lane);
 		if (carries || u <= 0.1 * std::sqrt(energy * Wnn))
 			selected.push_back(id);
 		else

@@ -241,10 +241,7 @@ private:
 		const std::int32_t pack = of.number / packLanes, lane = of.number % packLanes;
 		return of.ball ? visit(self.packs[pack], lane) : visit(self.generals[pack], lane);
 	}
-	template <class Pack> static bool isLoaded(const Pack& pack, int lane)
-	{
-		return pack.impulse[0][lane] != 0 || pack.impulse[1][lane] != 0 || pack.impulse[2][lane] != 0;
-	}
+	static bool isNonzero(const double (&its)[3][packLanes], int lane) { return its[0][lane] != 0 || its[1][lane] != 0 || its[2][lane] != 0; }
 	HotSpot::PackLane placeOf(const BallPack& pack, int lane) const;
 	HotSpot::PackLane placeOf(const GeneralPack& pack, int lane) const;
 	void extrapolate(Extrapolation by, std::size_t firstSeat, std::size_t lastSeat);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where the awake contacts lie: node by node of the tree of bodies, within a node by colour.
+#include "Buckets.hpp"
 #include "GrainOperator.hpp"
 
 namespace contactdynamics {
@@ -46,15 +47,14 @@ void GrainOperator::layOut(const std::vector<std::int32_t>& ids)
 	const bool isFirst = passes.empty();
 	if (isFirst) colouring.reset(problem->bodies.size());
 	colourOf.resize(ids.size());
-	byNode.resize(ids.size());
 	order.resize(ids.size());
 	// A few that wake later are one node, for one thread: a node for each would leave most lanes of their packs empty.
 	const bool isShared = tree.regions() > 1 && ids.size() > contactsPerRegion, byTree = isFirst || isShared;
 	inRuns(ids.size(), [&](std::size_t i) { colourOf[i] = byTree ? std::int32_t(tree.of(problem->contacts[ids[i]])) : 0; });
-	firstOfNode.assign(tree.nodes() + 2, 0);
-	for (const std::int32_t node : colourOf) ++firstOfNode[node + 2];
-	for (std::size_t n = 2; n < firstOfNode.size(); ++n) firstOfNode[n] += firstOfNode[n - 1];
-	for (std::size_t i = 0; i < ids.size(); ++i) byNode[firstOfNode[colourOf[i] + 1]++] = ids[i];
+	const auto eachNode = [&](const auto& put) {
+		for (std::size_t i = 0; i < ids.size(); ++i) put(std::size_t(colourOf[i]), ids[i]);
+	};
+	intoBuckets(tree.nodes(), eachNode, firstOfNode, byNode);
 
 	nodeChunks.resize(tree.nodes());
 	overJobs([&](std::size_t job) {

@@ -42,39 +42,37 @@ GuardedResult guardedLoop(Operator& op, const SolverOptions& options, int lead, 
 	constexpr double pausePerCost = 0.25;											// of a spot
 	Trajectory<Operator> own(op, options, true);
 	std::optional<Trajectory<Operator>> rival;
-	int done = 0, nextSpot = firstSpot;
+	int nextSpot = firstSpot;
 	double inSpots = 0; // sweeps
 	const auto sweepsOfOwn = [&] { return own.sweeps() + int(inSpots); };
+	const auto done = [&] { return sweepsOfOwn() + (rival ? rival->sweeps() : 0); };
 	const auto settleSpot = [&] {
-		const auto spot = settle(op, lastWithMomentum - done, own.sweeps());
-		done -= int(inSpots);
+		const auto spot = settle(op, lastWithMomentum - done(), own.sweeps());
 		inSpots += spot.sweeps;
-		done += int(inSpots);
 		if (spot.settled) own.goOnFromHere();
 		nextSpot = own.sweeps() +
 				   std::max(own.hasStalled() ? betweenSpotsOnceStalled : betweenSpots, int(pausePerCost * (spot.newtonCost + spot.sweeps)));
 	};
 	const auto advance = [&](Trajectory<Operator>& runner) {
-		++done;
 		if (runner.advance()) return true;
-		if (done > most / 2) runner.keepIfBest();
+		if (done() > most / 2) runner.keepIfBest();
 		return false;
 	};
-	while (done < lastWithMomentum) {
+	while (done() < lastWithMomentum) {
 		if (!rival && own.hasStalled() && sweepsOfOwn() >= lead) rival.emplace(makeRival(), options, false);
 		const bool byRival = rival && rival->sweeps() < sweepsOfOwn() + round;
 		Trajectory<Operator>& runner = byRival ? *rival : own;
-		for (int i = rival ? round : 1; i > 0 && done < lastWithMomentum; --i) {
+		for (int i = rival ? round : 1; i > 0 && done() < lastWithMomentum; --i) {
 			if (!byRival && own.sweeps() >= nextSpot) settleSpot();
-			if (advance(runner)) return {{done, runner.residual()}, byRival};
+			if (advance(runner)) return {{done(), runner.residual()}, byRival};
 		}
 	}
 	own.endPlainly();
-	while (done < most)
-		if (advance(own)) return {{done, own.residual()}, false};
+	while (done() < most)
+		if (advance(own)) return {{done(), own.residual()}, false};
 	const double residual = own.certifyBest();
-	if (rival && rival->certifyBest() < residual) return {{most, rival->residual()}, true};
-	return {{most, residual}, false};
+	if (rival && rival->certifyBest() < residual) return {{done(), rival->residual()}, true};
+	return {{done(), residual}, false};
 }
 
 } // namespace contactdynamics

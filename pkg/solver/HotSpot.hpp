@@ -53,7 +53,6 @@ struct HotSpot {
 	std::vector<std::size_t> firstNear;		 // of each candidate, in nearOf
 	std::vector<std::int32_t> nearOf;		 // candidate by candidate its contacts
 	JoinedGroups<Group> groups;				 // of numbered bodies
-	std::vector<std::int32_t> partOf;		 // of each near contact, -1: not chosen
 	std::vector<std::int32_t> bodyOf, seats; // of the part taken last: by seat, -1 for all between two parts; of each of its bodies
 };
 

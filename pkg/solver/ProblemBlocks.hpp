@@ -4,6 +4,7 @@
 #include "BlockProblem.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 namespace contactdynamics {
 
@@ -19,6 +20,14 @@ template <int D> Eigen::Matrix<double, D, D> diagonalBlockOf(const BlockProblem&
 	for (int k = problem.rowStart[i]; k < problem.rowStart[i + 1]; ++k)
 		if (std::size_t(problem.column[k]) == i) W += blockOf<D>(problem, k);
 	return W;
+}
+
+/// The largest approach without any impulse, of all contacts; 0 where none closes [m/s].
+template <int D> double largestFreeApproach(const BlockProblem& problem)
+{
+	double largest = 0;
+	for (std::size_t i = 0; i < problem.contacts(); ++i) largest = std::max(largest, -problem.q[D * i]);
+	return largest;
 }
 
 } // namespace contactdynamics

@@ -15,6 +15,15 @@ using namespace contactdynamics;
 
 namespace {
 
+/// Each on the floor by itself, which is body 0.
+void addBallsAfar(GrainProblem& problem, int balls)
+{
+	for (int i = 0; i < balls; ++i) {
+		problem.bodies.push_back(scenes::ball(1, 1, {0.3, 0, -1}));
+		problem.contacts.push_back(scenes::touch(0, 0, int(problem.bodies.size()) - 1, 1, Vector3::UnitZ(), 0.5));
+	}
+}
+
 /// A ball of mass 1 on the floor, two of mass 100 that come down on it from the sides, mu = 0.5, three contacts. At the solution the sweep has a pair
 /// of complex eigenvalues outside the unit circle: it goes round for ever, with momentum as without.
 GrainProblem squashed(int ballsAfar = 0)
@@ -25,10 +34,7 @@ GrainProblem squashed(int ballsAfar = 0)
 	const Vector3 first = Vector3(0.76, 0.19, 0.62).normalized(), second = Vector3(0.23, 0.9, 0.38).normalized();
 	problem.contacts = {scenes::touch(0, 0, 1, 1, Vector3::UnitZ(), 0.5), scenes::touch(1, 1, 2, 1, first, 0.5),
 						scenes::touch(1, 1, 3, 1, second, 0.5)};
-	for (int i = 0; i < ballsAfar; ++i) { // each on the floor by itself
-		problem.bodies.push_back(scenes::ball(1, 1, {0.3, 0, -1}));
-		problem.contacts.push_back(scenes::touch(0, 0, int(problem.bodies.size()) - 1, 1, Vector3::UnitZ(), 0.5));
-	}
+	addBallsAfar(problem, ballsAfar);
 	return problem;
 }
 
@@ -56,6 +62,24 @@ SolverOptions fine(Acceleration acceleration)
 	options.maxIterations = 20000;
 	options.acceleration = acceleration;
 	return options;
+}
+
+/// An operator after some sweeps.
+struct Swept {
+	Crew crew{1};
+	GrainOperator op;
+
+	Swept(GrainProblem& problem, int sweeps, Extrapolation by = {})
+	{
+		op.start(problem, true, crew);
+		for (int i = 0; i < sweeps; ++i) op.sweep(by);
+	}
+};
+
+bool hasHotSpot(GrainProblem problem)
+{
+	HotSpot spot;
+	return Swept(problem, 1).op.chooseHotSpot(spot);
 }
 
 std::size_t loadedContacts(const GrainProblem& part)
@@ -95,10 +119,8 @@ TEST(HotSpot, VelocitiesGoWithTheImpulsesPutBack)
 	for (const bool general : {false, true}) {
 		const GrainProblem given = scenes::heap(6, 3, 0.5, true, general);
 		GrainProblem problem = given;
-		Crew crew(1);
-		GrainOperator op;
-		op.start(problem, true, crew);
-		for (int i = 0; i < 20; ++i) op.sweep({0.3, 0.2});
+		Swept swept(problem, 20, {0.3, 0.2});
+		GrainOperator& op = swept.op;
 		HotSpot spot;
 		ASSERT_TRUE(op.chooseHotSpot(spot));
 		GrainProblem part;
@@ -132,10 +154,8 @@ TEST(HotSpot, PartsAreProblemsOfTheirOwn)
 {
 	for (const bool general : {false, true}) {
 		GrainProblem problem = scenes::heap(6, 3, 0.5, true, general);
-		Crew crew(1);
-		GrainOperator op;
-		op.start(problem, true, crew);
-		for (int i = 0; i < 20; ++i) op.sweep({});
+		Swept swept(problem, 20);
+		GrainOperator& op = swept.op;
 		HotSpot spot;
 		ASSERT_TRUE(op.chooseHotSpot(spot));
 		std::vector<GrainProblem> parts(spot.parts);
@@ -161,10 +181,8 @@ TEST(HotSpot, PartsAreProblemsOfTheirOwn)
 TEST(HotSpot, PartsShareNoBodyAndHaveNoMoreContactsThanThereIsRoomFor)
 {
 	GrainProblem problem = scenes::heap(16, 3, 0.5, true);
-	Crew crew(1);
-	GrainOperator op;
-	op.start(problem, true, crew);
-	for (int i = 0; i < 20; ++i) op.sweep({});
+	Swept swept(problem, 20);
+	GrainOperator& op = swept.op;
 	HotSpot spot;
 	for (const std::size_t room : {HotSpot::mostContacts, HotSpot::fewestContacts}) {
 		spot.room = room;
@@ -186,23 +204,15 @@ TEST(HotSpot, PartsShareNoBodyAndHaveNoMoreContactsThanThereIsRoomFor)
 /// Of changes that are spread evenly too little would lie in a spot.
 TEST(HotSpot, IsNotThereWhereChangesAreSpread)
 {
-	const auto isTaken = [](int balls) {
+	const auto spread = [](int balls) {
 		GrainProblem problem;
 		problem.bodies = {scenes::wall()};
-		for (int i = 0; i < balls; ++i) {
-			problem.bodies.push_back(scenes::ball(1, 1, {0.3, 0, -1}));
-			problem.contacts.push_back(scenes::touch(0, 0, i + 1, 1, Vector3::UnitZ(), 0.5));
-		}
-		Crew crew(1);
-		GrainOperator op;
-		op.start(problem, true, crew);
-		op.sweep({});
-		HotSpot spot;
-		return op.chooseHotSpot(spot);
+		addBallsAfar(problem, balls);
+		return problem;
 	};
 	const int most = int(double(HotSpot::mostContacts) / HotSpot::leastShare); // all alike: the room over their number is the share
-	EXPECT_TRUE(isTaken(most - 1));
-	EXPECT_FALSE(isTaken(most + 1));
+	EXPECT_TRUE(hasHotSpot(spread(most - 1)));
+	EXPECT_FALSE(hasHotSpot(spread(most + 1)));
 }
 
 /// A lid on many balls has more contacts than there is room for: those that change most are solved all the same, the lid in the part but not with all
@@ -217,10 +227,8 @@ TEST(HotSpot, BodiesWithTooManyContactsHoldNothingUp)
 		problem.contacts.push_back(scenes::touch(0, 0, i + 2, 1, Vector3::UnitZ(), 0.5));
 		problem.contacts.push_back(scenes::touch(i + 2, 1, 1, 0, Vector3::UnitZ(), 0.5));
 	}
-	Crew crew(1);
-	GrainOperator op;
-	op.start(problem, true, crew);
-	op.sweep({});
+	Swept swept(problem, 1);
+	GrainOperator& op = swept.op;
 	HotSpot spot;
 	ASSERT_TRUE(op.chooseHotSpot(spot));
 	ASSERT_EQ(spot.parts, 1U); // they share the lid
@@ -233,21 +241,13 @@ TEST(HotSpot, BodiesWithTooManyContactsHoldNothingUp)
 
 TEST(HotSpot, LeavesAloneMeanFieldsAndRollingFriction)
 {
-	const auto isTaken = [](GrainProblem problem) {
-		Crew crew(1);
-		GrainOperator op;
-		op.start(problem, true, crew);
-		op.sweep({});
-		HotSpot spot;
-		return op.chooseHotSpot(spot);
-	};
 	GrainProblem problem = squashed();
-	EXPECT_TRUE(isTaken(problem));
+	EXPECT_TRUE(hasHotSpot(problem));
 	scenes::addRollingFriction(problem, 0.05);
-	EXPECT_FALSE(isTaken(problem));
+	EXPECT_FALSE(hasHotSpot(problem));
 	problem = squashed();
 	problem.meanField.emplace();
-	EXPECT_FALSE(isTaken(problem));
+	EXPECT_FALSE(hasHotSpot(problem));
 }
 
 /// Several such triples far from each other are parts of one spot.
@@ -265,13 +265,10 @@ TEST(HotSpot, CostNoMoreThanTheSweepsThatAreLeft)
 {
 	for (const int left : {0, 1, 7, 100}) {
 		GrainProblem problem = manySquashed(5);
-		Crew crew(1);
-		GrainOperator op;
-		op.start(problem, true, crew);
-		for (int i = 0; i < 150; ++i) op.sweep({});
+		Swept swept(problem, 150);
 		HotSpotSolver spots;
 		spots.start();
-		const HotSpotSolver::Outcome outcome = spots.settle(op, {1e-300, left, 150}, crew); // never met: round-off
+		const HotSpotSolver::Outcome outcome = spots.settle(swept.op, {1e-300, left, 150}, swept.crew); // never met: round-off
 		EXPECT_LE(outcome.sweeps, left);
 		EXPECT_GT(outcome.sweeps, 0.9 * left - 1); // and does what it may; shares of a sweep are rounded down
 	}
@@ -286,13 +283,10 @@ TEST(HotSpot, ImpulsesThatLeaveContactsClosingAreNotTaken)
 		problem.bodies = {scenes::wall(), scenes::wall(), scenes::ball(1, 1, {0.1, 0, -1})};
 		problem.bodies[1].velocity = {0, 0, squeezed ? -0.5 : 0.5};
 		problem.contacts = {scenes::touch(0, 0, 2, 1, Vector3::UnitZ(), 0.5), scenes::touch(2, 1, 1, 0, Vector3::UnitZ(), 0.5)};
-		Crew crew(1);
-		GrainOperator op;
-		op.start(problem, true, crew);
-		op.sweep({});
+		Swept swept(problem, 1);
 		HotSpotSolver spots;
 		spots.start();
-		EXPECT_EQ(spots.settle(op, {0.1, 1000, 1}, crew).settled, !squeezed);
+		EXPECT_EQ(spots.settle(swept.op, {0.1, 1000, 1}, swept.crew).settled, !squeezed);
 	}
 }
 
