@@ -13,14 +13,15 @@ struct GuardedResult : LoopResult {
 
 /// The Signorini-Coulomb loop with momentum, and what keeps it from being much slower than plain Gauss-Seidel or from ending at a worse point.
 ///
-/// Where momentum has stalled, plain Gauss-Seidel starts from the impulses handed over, on an operator of its own, the rival, catches up and keeps up
-/// with it. The first certificate that is met ends the loop. Momentum leads: where it stalls, plain sweeps mostly take long, too, and it seldom fails
-/// for long. How long a lead is worth while depends on what plain sweeps take, the caller's estimate (of 301 stored steps of pours of 729 none takes
-/// over twice the plain sweeps, and over 250 more than they do, with a lead of 1000; two do with 1500). Rejected: plain sweeps from where momentum
-/// had gone astray (a heap with mu = 1: not in 5000 sweeps what takes 2379 from the start); a rival with a light momentum (of 166 heaps thirteen take
-/// more than twice the plain sweeps, one not in 15,000 what these solve in 331); Anderson acceleration of depth 5 or 10 (no convergence in 5000
-/// sweeps on 10 of 16 heaps with mu from 0.3 to 1, where momentum fails on 5: its jumps cross changes of status); plain sweeps shortened to 0.6 (four
-/// heaps of seven with mu from 0.8 to 1 still cycle).
+/// Where momentum has stalled, plain Gauss-Seidel starts from the impulses handed over, on an operator of its own, the rival, and catches up as far
+/// as it is worth while: it has a turn as long as the geometric mean of its sweeps and of those that it will take in all, at its present rate, is
+/// less than the sweeps of the operator. When it is done both have done as many; while it has far to go it has half as many at least. The first
+/// certificate that is met ends the loop. Momentum leads: where it stalls, plain sweeps mostly take long, too, and it seldom fails for long. How long
+/// a lead is worth while depends on what plain sweeps take, the caller's estimate. Rejected: plain sweeps from where momentum had gone astray (a heap
+/// with mu = 1: not in 5000 sweeps what takes 2379 from the start); a rival with a light momentum (of 166 heaps thirteen take more than twice the
+/// plain sweeps, one not in 15,000 what these solve in 331); Anderson acceleration of depth 5 or 10 (no convergence in 5000 sweeps on 10 of 16 heaps
+/// with mu from 0.3 to 1, where momentum fails on 5: its jumps cross changes of status); plain sweeps shortened to 0.6 (four heaps of seven with mu
+/// from 0.8 to 1 still cycle).
 ///
 /// From the 150th sweep on, contacts that sweeps cannot settle are solved on their own (HotSpotSolver.hpp); what that takes counts as sweeps of the
 /// operator. More often where momentum has stalled, less often after a dear one (what else was tried: doc/grains.rst).
@@ -58,9 +59,14 @@ GuardedResult guardedLoop(Operator& op, const SolverOptions& options, int lead, 
 		if (done() > most / 2) runner.keepIfBest();
 		return false;
 	};
+	const auto isBehind = [&](const Trajectory<Operator>& rival) {
+		constexpr double mostForetold = 4; // times the sweeps done: it may stand still for a while, and then be soon done
+		const double sweeps = rival.sweeps(), inAll = std::min(mostForetold * sweeps, rival.foretold());
+		return std::sqrt(sweeps * inAll) < sweepsOfOwn() + round;
+	};
 	while (done() < lastWithMomentum) {
 		if (!rival && own.hasStalled() && sweepsOfOwn() >= lead) rival.emplace(makeRival(), options, false);
-		const bool byRival = rival && rival->sweeps() < sweepsOfOwn() + round;
+		const bool byRival = rival && isBehind(*rival);
 		Trajectory<Operator>& runner = byRival ? *rival : own;
 		for (int i = rival ? round : 1; i > 0 && done() < lastWithMomentum; --i) {
 			if (!byRival && own.sweeps() >= nextSpot) settleSpot();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace contactdynamics {
 
@@ -36,6 +37,7 @@ public:
 		const SweepNorms norms = op.sweep(extrapolation);
 		++count;
 		relative2 = norms.increment2 / norms.impulse2;
+		noteSmallest();
 		// A NaN stays one in this order of the arguments.
 		const double increment = std::sqrt(std::max(norms.increment2, 0.0)), impulse = std::sqrt(std::max(norms.impulse2, 0.0));
 		if (!std::isfinite(increment) || !std::isfinite(impulse)) {
@@ -107,7 +109,25 @@ public:
 	int sweeps() const { return count; }
 	bool hasStalled() const { return accelerator.hasStalled(); }
 
+	/// Sweeps in all until the increments promise convergence, at the mean rate of the last half of them, or up to three quarters; infinite where
+	/// they have not become smaller. Plain ones fall by a power of their number, not by a factor each, so that there will rather be more.
+	double foretold() const
+	{
+		const double goal2 = promise * promise, sinceMark = count - lastMark / 2;
+		if (!(smallest2 > goal2)) return count;
+		if (!(smallest2 < markBefore2)) return std::numeric_limits<double>::infinity();
+		return count + sinceMark * std::log(smallest2 / goal2) / std::log(markBefore2 / smallest2);
+	}
+
 private:
+	void noteSmallest()
+	{
+		if (relative2 < smallest2) smallest2 = relative2;
+		if ((count & (count - 1)) != 0) return;
+		lastMark = count;
+		markBefore2 = std::exchange(lastMark2, smallest2);
+	}
+
 	/// Whether the increments have not halved while the sweeps doubled. They may be round-off of larger velocities then, which never falls: where
 	/// grains that fly together touch with next to no impulse, only the certificate, which knows the velocities, can tell.
 	bool stagnates()
@@ -128,6 +148,9 @@ private:
 	double last = 0;
 	// Squared increments relative to the impulses: of the last sweep, of the one kept, of half as many sweeps ago.
 	double relative2 = 0, kept2 = std::numeric_limits<double>::infinity(), earlier2 = 0;
+	// The smallest one so far: now, at the last power of two of sweeps, at the one before.
+	double smallest2 = std::numeric_limits<double>::infinity(), lastMark2 = smallest2, markBefore2 = smallest2;
+	int lastMark = 0;
 	Accelerator accelerator;
 	Extrapolation extrapolation;
 };

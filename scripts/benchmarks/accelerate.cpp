@@ -24,11 +24,11 @@ struct Timed {
 	double seconds;
 };
 
-Timed timed(SignoriniCoulombSolver& solver, GrainProblem& problem, Acceleration acceleration, int maxIterations)
+Timed timed(SignoriniCoulombSolver& solver, GrainProblem& problem, Acceleration acceleration)
 {
 	SolverOptions options;
 	options.acceleration = acceleration;
-	options.maxIterations = maxIterations;
+	options.maxIterations = 20000;
 	const double start = processorTime();
 	const SolveReport report = solver.solve(problem, options);
 	return {report, processorTime() - start};
@@ -58,9 +58,9 @@ int main(int count, char** argument)
 	for (int step = 1; step <= steps; ++step) {
 		first = box.next();
 		second = first;
-		const Timed own = timed(solver, first, Acceleration::momentum, 20000);
+		const Timed own = timed(solver, first, Acceleration::momentum);
 		if (step % every == 0) {
-			const Timed plain = timed(other, second, Acceleration::none, 10000);
+			const Timed plain = timed(other, second, Acceleration::none);
 			std::printf("%d,%g,%g,%d,%zu,%d,%.3g,%d,%.6f,%.3g,%d,%d,%.6f,%.3g,%d\n", setup.grains, setup.friction, setup.heavyShare, step,
 						first.contacts.size(), own.report.activeContacts, box.kineticEnergyPerGrain(), own.report.iterations, own.seconds,
 						own.report.residual, own.report.status == SolveStatus::converged, plain.report.iterations, plain.seconds,
