@@ -107,9 +107,9 @@ bool isFinite(const GrainProblem& problem)
 }
 
 /// Plain sweeps carry a load from grain to grain: they take as many as the square of the grains in a row, N^(2/3), times something. Twenty-four makes
-/// a lead of 1900 for 729 grains: of 777 stored steps (each five times) none then takes more than 2.1 times the plain sweeps; with thirty one
-/// takes 2.25 times, with twelve, as before hot spots, momentum loses up to a third (doc/grains.rst). Earlier after a cold start, at the first stall:
-/// nothing gained on 166 heaps of 64 to 216.
+/// a lead of 1900 for 729 grains: of 777 stored steps, each solved five times, none then takes more than 2.1 times the plain sweeps. With thirty two
+/// take 2.15 and 2.26 times, with twelve the sums are larger by a fifth (doc/grains.rst). Earlier after a cold start, at the first stall: nothing
+/// gained on 166 heaps of 64 to 216.
 int leadOfMomentum(std::size_t movingBodies)
 {
 	const double inARow = std::cbrt(static_cast<double>(movingBodies));
