@@ -113,7 +113,8 @@ public:
 	/// they have not become smaller. Plain ones fall by a power of their number, not by a factor each, so that there will rather be more.
 	double foretold() const
 	{
-		const double goal2 = promise * promise, sinceMark = count - lastMark / 2;
+		const double goal2 = promise * promise;
+		const int sinceMark = count - lastMark / 2;
 		if (!(smallest2 > goal2)) return count;
 		if (!(smallest2 < markBefore2)) return std::numeric_limits<double>::infinity();
 		return count + sinceMark * std::log(smallest2 / goal2) / std::log(markBefore2 / smallest2);
