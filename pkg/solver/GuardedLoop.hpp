@@ -59,14 +59,15 @@ GuardedResult guardedLoop(Operator& op, const SolverOptions& options, int lead, 
 		if (done() > most / 2) runner.keepIfBest();
 		return false;
 	};
-	const auto isBehind = [&](const Trajectory<Operator>& rival) {
+	const auto hasRivalItsTurn = [&] {
+		if (!rival) return false;
 		constexpr double mostForetold = 4; // times the sweeps done: it may stand still for a while, and then be soon done
-		const double sweeps = rival.sweeps(), inAll = std::min(mostForetold * sweeps, rival.foretold());
+		const double sweeps = rival->sweeps(), inAll = std::min(mostForetold * sweeps, rival->foretold());
 		return std::sqrt(sweeps * inAll) < sweepsOfOwn() + round;
 	};
 	while (done() < lastWithMomentum) {
 		if (!rival && own.hasStalled() && sweepsOfOwn() >= lead) rival.emplace(makeRival(), options, false);
-		const bool byRival = rival && isBehind(*rival);
+		const bool byRival = hasRivalItsTurn();
 		Trajectory<Operator>& runner = byRival ? *rival : own;
 		for (int i = rival ? round : 1; i > 0 && done() < lastWithMomentum; --i) {
 			if (!byRival && own.sweeps() >= nextSpot) settleSpot();

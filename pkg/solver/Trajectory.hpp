@@ -121,10 +121,12 @@ public:
 	}
 
 private:
+	bool isAtPowerOfTwo() const { return (count & (count - 1)) == 0; }
+
 	void noteSmallest()
 	{
 		if (relative2 < smallest2) smallest2 = relative2;
-		if ((count & (count - 1)) != 0) return;
+		if (!isAtPowerOfTwo()) return;
 		lastMark = count;
 		markBefore2 = std::exchange(lastMark2, smallest2);
 	}
@@ -134,7 +136,7 @@ private:
 	bool stagnates()
 	{
 		constexpr int first = 16;
-		if (count < first || (count & (count - 1)) != 0) return false;
+		if (count < first || !isAtPowerOfTwo()) return false;
 		const bool so = count > first && !(relative2 < 0.25 * earlier2);
 		earlier2 = relative2;
 		return so;

@@ -63,19 +63,19 @@ struct Solve {
 	std::vector<Extrapolation> startsOfRival;
 };
 
-Solve solve(Scripted op, Scripted rival, int lead, int maxIterations = 100000)
+template <class Operator> Solve solve(Operator op, Operator rival, int lead, int maxIterations = 100000)
 {
 	SolverOptions options;
 	options.maxIterations = maxIterations;
 	Solve made{{}, never, {}};
 	made.result = guardedLoop(
 			op, options, lead,
-			[&]() -> Scripted& {
+			[&]() -> Operator& {
 				EXPECT_EQ(made.begun, never) << "a second rival";
 				made.begun = op.sweeps;
 				return rival;
 			},
-			leaveThem<Scripted>);
+			leaveThem<Operator>);
 	made.startsOfRival = rival.starts;
 	return made;
 }
@@ -127,19 +127,21 @@ struct Falling : Scripted {
 	}
 };
 
+Falling fallingUntil(int solved, double power)
+{
+	Falling op;
+	op.solvedAfter = solved;
+	op.power = power;
+	return op;
+}
+
 /// What is foretold is never more than what it takes then, so that the operator has done P at most when plain sweeps alone take P, or its lead.
 TEST(Loop, CostsTwiceThePlainSweepsOrTheLeadAtMost)
 {
 	for (const double power : {0.5, 1.0, 3.0})
 		for (const int lead : {0, 1000})
 			for (int needed = 1; needed < 6000; needed += needed < 700 ? 1 : 97) {
-				Falling op, rival;
-				rival.solvedAfter = needed;
-				rival.power = power;
-				SolverOptions options;
-				options.maxIterations = 100000;
-				const GuardedResult result = guardedLoop(
-						op, options, lead, [&]() -> Falling& { return rival; }, leaveThem<Falling>);
+				const GuardedResult result = solve(Falling(), fallingUntil(needed, power), lead).result;
 				EXPECT_TRUE(result.byRival);
 				EXPECT_LE(result.iterations, needed + std::max({needed, lead, firstStall})) << needed << ", " << power;
 			}
@@ -209,9 +211,7 @@ TEST(Loop, SettlesTheLargestChangesFromTimeToTime)
 TEST(Loop, CostsTwiceThePlainSweepsWithSpotsToo)
 {
 	for (int needed = 400; needed < 6000; needed += 97) {
-		Falling op, rival;
-		rival.solvedAfter = needed;
-		rival.power = 1;
+		Falling op, rival = fallingUntil(needed, 1);
 		SolverOptions options;
 		options.maxIterations = 100000;
 		const double ofSpot = 17.25;
